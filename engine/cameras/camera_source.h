@@ -1,0 +1,22 @@
+#pragma once
+
+#include "engine/cameras/frame.h"
+
+namespace helical {
+
+/// Where frames come from: a device, a file or the simulator. One thread, the camera's capture thread, calls `poll`
+/// and `wait`.
+class CameraSource {
+ public:
+  virtual ~CameraSource() = default;
+
+  virtual CameraId camera() const = 0;
+
+  /// The oldest frame that has arrived by now and was not yet polled; false if there is none. Never blocks.
+  virtual bool poll(Frame& frame) = 0;
+
+  /// Blocks until a frame can be polled or the clock passes `deadline`.
+  virtual void wait(TimeNs deadline) = 0;
+};
+
+}  // namespace helical

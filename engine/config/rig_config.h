@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/flight/controller_options.h"
+#include "engine/flight/supervisor_options.h"
+#include "engine/geometry/camera_model.h"
+#include "engine/geometry/rigid_transform.h"
+#include "engine/helicopter/helicopter_parameters.h"
+#include "engine/helicopter/marker_layout.h"
+#include "engine/markers/marker_options.h"
+#include "engine/simulator/simulation_options.h"
+#include "engine/tracking/tracker_options.h"
+
+namespace helical {
+
+struct CameraConfig {
+  std::string label;   ///< `id` of the rig file: what users call it
+  std::string name;    ///< shown as title; "Camera <id>" if the file gives none
+  std::string source;  ///< "sim", or empty in a rig for recordings
+  CameraModel model;
+  std::optional<RigidTransform> camera_from_world;  ///< nothing: un-calibrated
+  bool pose_is_guess = false;                       ///< `initial = true`
+};
+
+/// A rig file, loaded and validated. Immutable after.
+struct RigConfig {
+  std::string path;
+  std::vector<CameraConfig> cameras;
+  MarkerLayout markers_in_body = MarkerLayout::paper();
+  HelicopterParameters helicopter = HelicopterParameters::xrb();
+  MarkerOptions marker_options;
+  TrackerOptions tracking;
+  ControllerOptions control;
+  SupervisorOptions safety;
+  SimulationOptions simulation;
+
+  /// The camera that users call `label`; throws Error(kInput) listing the rig's cameras.
+  CameraId camera(const std::string& label) const;
+};
+
+}  // namespace helical

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/cameras/frame.h"
+#include "engine/markers/marker_options.h"
+#include "engine/markers/observation.h"
+
+namespace helical {
+
+/// The paper's section IV.B: background difference, colour range in HSV, opening, closing, labelling, centre of
+/// gravity. Gives the same centroids as `ReferenceExtractor`, which does these steps one by one with OpenCV; this one
+/// classifies every pixel by table in one pass and does the rest only around what it found. Allocates on the first
+/// frame of a size only. One thread.
+class Extractor {
+ public:
+  explicit Extractor(const MarkerOptions& options);
+  ~Extractor();
+  Extractor(Extractor&&) noexcept;
+  Extractor& operator=(Extractor&&) noexcept;
+
+  /// Averages the next `background_frames` frames into a new background; until then nothing is found.
+  void takeBackground();
+  /// Uses this image as background.
+  void setBackground(const ImageView& image);
+  /// Works without background difference: colour alone.
+  void disableBackground();
+  bool hasBackground() const;
+
+  /// Fills `observation`'s centroids, count, truncated and extraction time; largest regions first.
+  void extract(const ImageView& image, Observation& observation);
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace helical

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/config/rig_config.h"
+#include "engine/flight/flight_plan.h"
+#include "engine/pipeline/snapshot.h"
+
+namespace helical {
+
+/// A flight in real time: one capture thread per camera, one tracking and flight thread, one output thread. This is the
+/// whole of the engine that the window knows. Reading methods are for one thread (the window's); none of them blocks
+/// the engine, nor does the engine ever wait for them.
+class Engine {
+ public:
+  /// Builds sources and transmitter as the rig says. Throws Error when something is missing.
+  Engine(const RigConfig& rig, const FlightPlan& plan);
+  ~Engine();  ///< stops: rotors off first
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  const RigConfig& rig() const;
+  const FlightPlan& plan() const;
+
+  void start();
+  void stop();
+  bool running() const;
+
+  /// Commands: any thread, wait-free.
+  void takeOff();                               ///< starts the plan from the ground
+  void land();                                  ///< lands where it is
+  void kill();                                  ///< rotors off at once, latched; bypasses every queue
+  void hideCamera(CameraId camera, bool hidden);
+
+  /// True if `snapshot()` is newer than at the last call.
+  bool poll();
+  const EngineSnapshot& snapshot() const;
+
+  /// Newest picture of a camera at display rate; false if there is none since the last call.
+  bool pollPicture(CameraId camera);
+  const CameraPicture& picture(CameraId camera) const;
+
+  /// Every control tick's snapshot in order, for plots that must not miss one; false when there is none.
+  bool nextTick(EngineSnapshot& tick);
+  bool nextEvent(EngineEvent& event);
+  /// Ticks and events lost because the window did not fetch them in time.
+  std::uint64_t lostTicks() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace helical

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/time.h"
+#include "engine/cameras/frame.h"
+#include "engine/flight/flight_state.h"
+#include "engine/geometry/camera_estimate.h"
+#include "engine/helicopter/stick_demand.h"
+#include "engine/tracking/track.h"
+
+namespace helical {
+
+/// One camera as the flight thread sees it.
+struct CameraSnapshot {
+  CameraEstimate estimate;
+  bool hidden = false;              ///< by the operator: its observations are thrown away
+  std::uint64_t frames = 0;         ///< received
+  std::uint64_t dropped = 0;        ///< missing in the sequence, or lost because a queue was full
+  double frames_per_second = 0.0;
+  TimeNs latency = 0;               ///< mid-exposure to its use on the flight thread, newest frame
+  int centroids = 0;                ///< regions found in the newest frame
+  CameraTrack track;
+};
+
+/// The engine's state at one control tick; a plain value, copied to readers through a LatestValue.
+struct EngineSnapshot {
+  TimeNs time = 0;
+  std::uint64_t tick = 0;
+  int camera_count = 0;
+  int marker_count = 0;
+  bool pose_known = false;          ///< tracked now
+  TimeNs pose_age = 0;              ///< since the last accepted observation
+  FlightPhase phase = FlightPhase::kIdle;
+  SafetyState safety = SafetyState::kNormal;
+  std::uint32_t failsafes = 0;      ///< bits of Failsafe that have acted
+  TrackedState tracked;             ///< at `time`
+  SetPoint set_point;
+  double pad_height = 0.0;          ///< of the body's origin standing on the pad [m]
+  StickDemand sticks;
+  bool has_truth = false;           ///< simulated flights only
+  HelicopterState truth;            ///< at `time`
+  TimeNs server_p50 = 0;            ///< observation in hand to command out, flight thread
+  TimeNs server_p99 = 0;
+  TimeNs frame_to_command_p50 = 0;  ///< arrival of the frame to the command that first used it
+  TimeNs frame_to_command_p99 = 0;
+  double ticks_per_second = 0.0;
+  std::array<CameraSnapshot, kMaxCameras> cameras{};
+};
+
+/// A frame for display, with what was found in it.
+struct CameraPicture {
+  std::uint64_t sequence = 0;
+  TimeNs exposure = 0;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bgr;  ///< packed rows, `3 * width` bytes each
+  Observation observation;
+};
+
+enum class Severity : std::uint8_t { kInfo, kGood, kCaution, kDanger };
+
+/// A rare event, for the operator and the log.
+struct EngineEvent {
+  TimeNs time = 0;
+  Severity severity = Severity::kInfo;
+  std::array<char, 112> text{};  ///< zero-terminated
+};
+
+}  // namespace helical

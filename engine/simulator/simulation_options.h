@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/base/ids.h"
+#include "engine/geometry/rigid_transform.h"
+
+namespace helical {
+
+/// A white board before a camera, from `from_s` to `to_s` of the session.
+struct Occlusion {
+  CameraId camera;
+  double from_s = 0.0;
+  double to_s = 0.0;
+};
+
+/// A knock: at `at_s` the camera turns about a random axis and shifts in a random direction.
+struct Bump {
+  CameraId camera;
+  double at_s = 0.0;
+  double angle = 0.0;     ///< rad
+  double distance = 0.0;  ///< m
+};
+
+/// Image-free observations: what the extractor makes of rendered images, as numbers. Fitted to the renderer;
+/// tests/simulator compares the two.
+struct ObservationNoise {
+  double sigma_px = 0.13;           ///< per axis, frame to frame
+  double bias_px = 0.08;            ///< per axis, of an offset that changes slowly
+  double bias_time_s = 0.3;         ///< correlation time of that offset
+  double dropout = 0.002;           ///< a visible ball is not found
+  double false_markers = 0.001;     ///< per frame: a region somewhere in the image
+  double outliers = 0.0;            ///< share of centroids thrown up to 80 px aside
+};
+
+struct SimulationOptions {
+  std::uint64_t seed = 1;
+  bool images = true;
+  double gust_factor = 1.0;
+  double vary = 0.0;              ///< fraction, of every helicopter parameter
+  double camera_rate_hz = 60.0;
+  double rate_error = 1e-4;       ///< relative, drawn per camera: their clocks are not synchronised
+  double readout_delay_s = 0.015; ///< mid-exposure to arrival
+  double field_empty_s = 0.25;    ///< before the helicopter is put on the pad: time to take the background
+  double image_noise = 2.0;       ///< grey levels, standard deviation
+  double light_drift = 0.05;      ///< relative, over half a minute
+  ObservationNoise noise;
+  std::vector<Occlusion> occlusions;
+  std::vector<Bump> bumps;
+  /// True poses of cameras whose pose the rig file does not give, or gives as a first guess only.
+  std::vector<std::optional<RigidTransform>> true_camera_from_world;
+};
+
+/// Throws Error(kInput) naming the offending key.
+void validate(const SimulationOptions& options);
+
+}  // namespace helical

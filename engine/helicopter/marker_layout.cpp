@@ -1,5 +1,6 @@
 #include "engine/helicopter/marker_layout.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "engine/base/error.h"

@@ -14,7 +14,8 @@ class ExtractingSource final : public ObservationSource {
   /// `on_frame`, if given, sees every frame with what was found in it (for display), on the capture thread.
   using FrameTap = std::function<void(const Frame&, const Observation&)>;
 
-  ExtractingSource(std::unique_ptr<CameraSource> source, const MarkerOptions& options, FrameTap on_frame = {});
+  ExtractingSource(std::unique_ptr<CameraSource> source, const MarkerOptions& options,
+                   FrameTap on_frame = {});
 
   CameraId camera() const override { return source_->camera(); }
   bool poll(Observation& observation) override;

@@ -9,10 +9,10 @@
 
 namespace helical {
 
-/// The paper's section IV.B: background difference, colour range in HSV, opening, closing, labelling, centre of
-/// gravity. Gives the same centroids as `ReferenceExtractor`, which does these steps one by one with OpenCV; this one
-/// classifies every pixel by table in one pass and does the rest only around what it found. Allocates on the first
-/// frame of a size only. One thread.
+/// The paper's section IV.B: background difference, colour range in HSV, opening, closing, labelling, centre
+/// of gravity. Gives the same centroids as `ReferenceExtractor`, which does these steps one by one with
+/// OpenCV; this one classifies every pixel by table in one pass and does the rest only around what it found.
+/// Allocates on the first frame of a size only. One thread.
 class Extractor {
  public:
   explicit Extractor(const MarkerOptions& options);

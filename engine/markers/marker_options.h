@@ -5,14 +5,14 @@ namespace helical {
 /// How markers are told from everything else (the paper's section IV.B). Hue is OpenCV's, 0..179.
 struct MarkerOptions {
   int hue_low = 40;
-  int hue_high = 80;             ///< smaller than `hue_low` wraps through red
-  int saturation_low = 90;       ///< 0..255
+  int hue_high = 80;        ///< smaller than `hue_low` wraps through red
+  int saturation_low = 90;  ///< 0..255
   int saturation_high = 255;
-  int value_low = 40;            ///< 0..255
+  int value_low = 40;  ///< 0..255
   int value_high = 255;
-  int background_threshold = 20; ///< largest channel difference from the background that still is background
-  int background_frames = 8;     ///< averaged into the background at start
-  int opening_px = 3;            ///< side of the square structuring element; 1 switches the step off
+  int background_threshold = 20;  ///< largest channel difference from the background that still is background
+  int background_frames = 8;      ///< averaged into the background at start
+  int opening_px = 3;             ///< side of the square structuring element; 1 switches the step off
   int closing_px = 3;
   int minimum_area_px = 9;
   int maximum_area_px = 20000;

@@ -23,24 +23,26 @@ inline constexpr int kMaxCentroids = 32;
 /// Everything one camera saw at one time. Fixed size: it travels through queues without allocation.
 struct Observation {
   CameraId camera;
-  std::uint64_t sequence = 0;   ///< of the frame
-  TimeNs exposure = 0;          ///< mid-exposure
-  TimeNs arrival = 0;           ///< of the frame at this machine
-  TimeNs extraction = 0;        ///< processor time spent on extraction; 0 if there was no image
+  std::uint64_t sequence = 0;  ///< of the frame
+  TimeNs exposure = 0;         ///< mid-exposure
+  TimeNs arrival = 0;          ///< of the frame at this machine
+  TimeNs extraction = 0;       ///< processor time spent on extraction; 0 if there was no image
   int count = 0;
   bool truncated = false;
   std::array<Centroid, kMaxCentroids> centroids{};
 };
 
-/// Where observations come from: an extractor behind a camera, a recording, another computer, or the simulator
-/// without images. Everything after it is the same for all of them. One thread calls `poll` and `wait`.
+/// Where observations come from: an extractor behind a camera, a recording, another computer, or the
+/// simulator without images. Everything after it is the same for all of them. One thread calls `poll` and
+/// `wait`.
 class ObservationSource {
  public:
   virtual ~ObservationSource() = default;
 
   virtual CameraId camera() const = 0;
 
-  /// The oldest observation that has arrived by now and was not yet polled; false if there is none. Never blocks.
+  /// The oldest observation that has arrived by now and was not yet polled; false if there is none. Never
+  /// blocks.
   virtual bool poll(Observation& observation) = 0;
 
   /// Blocks until an observation can be polled or the clock passes `deadline`.

@@ -1,0 +1,72 @@
+#include "engine/markers/background_model.h"
+
+#include <algorithm>
+
+namespace helical {
+
+int rowBytes(const ImageView& image) {
+  return image.width * (image.format == PixelFormat::kBgr8 ? 3 : 1);
+}
+
+void BackgroundModel::take() {
+  state_ = State::kTaking;
+  taken_ = 0;
+}
+
+void BackgroundModel::set(const ImageView& image) {
+  resize(image);
+  const auto row_bytes = static_cast<std::size_t>(rowBytes(image));
+  for (int y = 0; y < image.height; ++y)
+    std::copy_n(image.row(y), row_bytes, mean_.data() + static_cast<std::size_t>(y) * row_bytes);
+  state_ = State::kReady;
+}
+
+void BackgroundModel::update(const ImageView& image) {
+  if (state_ == State::kDisabled) return;
+  if (!fits(image)) {
+    resize(image);
+    take();
+  }
+  if (state_ == State::kReady) return;
+  accumulate(image);
+  if (taken_ == frames_) average();
+}
+
+ImageView BackgroundModel::view() const {
+  ImageView view{mean_.data(), width_, height_, 0, format_};
+  view.stride = rowBytes(view);
+  return view;
+}
+
+bool BackgroundModel::fits(const ImageView& image) const {
+  return image.width == width_ && image.height == height_ && image.format == format_;
+}
+
+void BackgroundModel::resize(const ImageView& image) {
+  width_ = image.width;
+  height_ = image.height;
+  format_ = image.format;
+  const auto bytes = static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height_);
+  mean_.resize(bytes);
+  sums_.resize(bytes);
+}
+
+void BackgroundModel::accumulate(const ImageView& image) {
+  if (taken_ == 0) std::fill(sums_.begin(), sums_.end(), 0U);
+  const auto row_bytes = static_cast<std::size_t>(rowBytes(image));
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* source = image.row(y);
+    std::uint32_t* sum = sums_.data() + static_cast<std::size_t>(y) * row_bytes;
+    for (std::size_t x = 0; x < row_bytes; ++x) sum[x] += source[x];
+  }
+  ++taken_;
+}
+
+void BackgroundModel::average() {
+  const auto n = static_cast<std::uint32_t>(taken_);
+  std::transform(sums_.begin(), sums_.end(), mean_.begin(),
+                 [n](std::uint32_t sum) { return static_cast<std::uint8_t>((sum + n / 2) / n); });
+  state_ = State::kReady;
+}
+
+}  // namespace helical

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/cameras/frame.h"
+
+namespace helical {
+
+/// The image of the empty field that markers are told from: the rounded mean of some frames, or one given
+/// image, or none at all (colour alone). A frame of another size or format starts the averaging anew.
+/// Allocates when a size is first seen. One thread.
+class BackgroundModel {
+ public:
+  enum class State { kTaking, kReady, kDisabled };
+
+  explicit BackgroundModel(int frames) : frames_(frames) {}
+
+  void take();
+  void set(const ImageView& image);
+  void disable() { state_ = State::kDisabled; }
+
+  /// Feeds a frame; afterwards `state` says whether markers can be looked for in it.
+  void update(const ImageView& image);
+
+  State state() const { return state_; }
+  /// Valid in state kReady; rows are packed.
+  ImageView view() const;
+
+ private:
+  void resize(const ImageView& image);
+  bool fits(const ImageView& image) const;
+  void accumulate(const ImageView& image);
+  void average();
+
+  int frames_;
+  State state_ = State::kTaking;
+  int taken_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  PixelFormat format_ = PixelFormat::kBgr8;
+  std::vector<std::uint32_t> sums_;
+  std::vector<std::uint8_t> mean_;
+};
+
+/// Bytes of a row's pixels.
+int rowBytes(const ImageView& image);
+
+}  // namespace helical

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "engine/markers/marker_options.h"
+
+namespace helical {
+
+/// 255 where a BGR image has a marker's colour. The definition of the colour class: everything else is
+/// derived from it. For the .cpp files of this folder only.
+void markerColourMask(const cv::Mat& bgr, const MarkerOptions& options, cv::Mat& mask);
+
+}  // namespace helical

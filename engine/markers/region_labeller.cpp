@@ -1,0 +1,128 @@
+#include "engine/markers/region_labeller.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace helical {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool isBefore(const Region& a, const Region& b) {
+  if (a.area != b.area) return a.area > b.area;
+  if (a.sum_y != b.sum_y) return a.sum_y < b.sum_y;
+  return a.sum_x < b.sum_x;
+}
+
+Centroid centroidOf(const Region& region, double sigma_px) {
+  const auto area = static_cast<double>(region.area);
+  Centroid centroid;
+  centroid.pixel = {static_cast<double>(region.sum_x) / area, static_cast<double>(region.sum_y) / area};
+  centroid.covariance = Eigen::Matrix2d::Identity() * (sigma_px * sigma_px);
+  centroid.area_px = area;
+  centroid.radius_px = std::sqrt(area / kPi);
+  return centroid;
+}
+
+}  // namespace
+
+void RegionLabeller::resize(int width, int height) {
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  above_.reserve(w / 2 + 1);
+  current_.reserve(w / 2 + 1);
+  // A 2x2 square of pixels can hold the first pixel of one new region only.
+  const std::size_t most = ((w + 1) / 2) * ((h + 1) / 2);
+  parents_.reserve(most);
+  regions_.reserve(most);
+}
+
+std::span<Region> RegionLabeller::label(const BinaryMask& mask) {
+  parents_.clear();
+  regions_.clear();
+  current_.clear();
+  for (int y = mask.firstRow(); y <= mask.lastRow(); ++y) {
+    std::swap(above_, current_);
+    findRuns(mask, y);
+    joinRuns(y);
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < parents_.size(); ++i)
+    if (parents_[i] == static_cast<int>(i)) regions_[count++] = regions_[i];
+  return {regions_.data(), count};
+}
+
+void RegionLabeller::findRuns(const BinaryMask& mask, int y) {
+  current_.clear();
+  const std::uint64_t* words = mask.row(y);
+  for (int w = 0; w < mask.wordsPerRow(); ++w) {
+    std::uint64_t rest = words[w];
+    while (rest != 0) {
+      const int start = std::countr_zero(rest);
+      const int length = std::countr_one(rest >> start);
+      const int first = 64 * w + start;
+      if (!current_.empty() && current_.back().last == first - 1)
+        current_.back().last = first + length - 1;
+      else
+        current_.push_back({first, first + length - 1, -1});
+      rest = start + length >= 64 ? 0 : rest & (~std::uint64_t{0} << (start + length));
+    }
+  }
+}
+
+void RegionLabeller::joinRuns(int y) {
+  auto neighbour = above_.cbegin();
+  for (Run& run : current_) {
+    while (neighbour != above_.cend() && neighbour->last < run.first - 1) ++neighbour;
+    for (auto other = neighbour; other != above_.cend() && other->first <= run.last + 1; ++other)
+      run.label = run.label < 0 ? rootOf(other->label) : unite(run.label, rootOf(other->label));
+    if (run.label < 0) {
+      run.label = static_cast<int>(parents_.size());
+      parents_.push_back(run.label);
+      regions_.emplace_back();
+    }
+    Region& region = regions_[static_cast<std::size_t>(run.label)];
+    const std::int64_t length = run.last - run.first + 1;
+    region.area += length;
+    region.sum_x += length * (run.first + run.last) / 2;
+    region.sum_y += length * y;
+  }
+}
+
+int RegionLabeller::rootOf(int label) {
+  auto i = static_cast<std::size_t>(label);
+  while (parents_[i] != static_cast<int>(i)) {
+    parents_[i] = parents_[static_cast<std::size_t>(parents_[i])];
+    i = static_cast<std::size_t>(parents_[i]);
+  }
+  return static_cast<int>(i);
+}
+
+int RegionLabeller::unite(int a, int b) {
+  if (a == b) return a;
+  const auto [kept, gone] = std::minmax(a, b);
+  Region& into = regions_[static_cast<std::size_t>(kept)];
+  const Region& from = regions_[static_cast<std::size_t>(gone)];
+  into.area += from.area;
+  into.sum_x += from.sum_x;
+  into.sum_y += from.sum_y;
+  parents_[static_cast<std::size_t>(gone)] = kept;
+  return kept;
+}
+
+void fillCentroids(std::span<Region> regions, const MarkerOptions& options, Observation& observation) {
+  const auto end = std::remove_if(regions.begin(), regions.end(), [&options](const Region& region) {
+    return region.area < options.minimum_area_px || region.area > options.maximum_area_px;
+  });
+  const auto found = end - regions.begin();
+  const auto kept = std::min<std::ptrdiff_t>(found, kMaxCentroids);
+  std::partial_sort(regions.begin(), regions.begin() + kept, end, isBefore);
+  observation.count = static_cast<int>(kept);
+  observation.truncated = found > kept;
+  for (std::ptrdiff_t i = 0; i < kept; ++i)
+    observation.centroids[static_cast<std::size_t>(i)] =
+        centroidOf(regions[static_cast<std::size_t>(i)], options.centroid_sigma_px);
+}
+
+}  // namespace helical

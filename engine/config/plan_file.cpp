@@ -22,7 +22,7 @@ constexpr OptionField<Waypoint> kWaypointFields[] = {
     {"speed_m_s", &Waypoint::speed},
 };
 
-Waypoint readWaypoint(TomlTable table) {
+Waypoint readWaypoint(TomlTable& table) {
   Waypoint waypoint;
   readOptions(table, kWaypointFields, waypoint);
   const Eigen::VectorXd origin = Eigen::VectorXd::Zero(3);
@@ -33,6 +33,15 @@ Waypoint readWaypoint(TomlTable table) {
   return waypoint;
 }
 
+/// Adds the waypoints one by one, so that what is wrong with one is found at its table.
+void readWaypoints(std::vector<TomlTable> tables, FlightPlan& plan) {
+  plan.waypoints.clear();
+  for (TomlTable& table : tables) {
+    plan.waypoints.push_back(readWaypoint(table));
+    table.locate([&] { validate(plan); });
+  }
+}
+
 }  // namespace
 
 FlightPlan parsePlan(std::string_view toml, const std::string& name) {
@@ -40,15 +49,15 @@ FlightPlan parsePlan(std::string_view toml, const std::string& name) {
   FlightPlan plan;
   plan.name = root.text("name").value_or(std::filesystem::path(name).stem().string());
   plan.land_at_s = 0.0;
-  plan.waypoints.clear();
   const int version =
       root.required("format_version", root.integer("format_version"), 1, "format_version = 1");
   readOptions(root, kPlanFields, plan);
-  for (TomlTable& waypoint : root.tables("waypoint"))
-    plan.waypoints.push_back(readWaypoint(std::move(waypoint)));
+  std::vector<TomlTable> waypoints = root.tables("waypoint");
   root.finish();
   if (version != 1)
     root.fail("format_version", "a plan of another format than 1", "use a plan of format_version 1");
+  root.locate([&] { validate(plan); });
+  readWaypoints(std::move(waypoints), plan);
   root.locate([&] { validate(plan); });
   return plan;
 }

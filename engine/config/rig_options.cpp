@@ -195,10 +195,9 @@ void readSupervisorOptions(TomlTable table, SupervisorOptions& options) {
 
 void readSimulationOptions(TomlTable& table, SimulationOptions& options) {
   TomlTable noise = table.table("noise");
-  readOptions(noise, kNoiseFields, options.noise);
-  noise.finish();
-  readWholeTable(table, kSimulationFields, options);
-  table.locate([&] { validate(options); }, &noise);
+  readAndValidate(table, kSimulationFields, options);
+  readWholeTable(noise, kNoiseFields, options.noise);
+  noise.locate([&] { validate(options); });
 }
 
 void readTransmitter(TomlTable table) {

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -66,6 +67,15 @@ std::string_view withoutUnit(std::string_view key) {
   for (const std::string_view unit : {"_deg", "_m_s", "_m"})
     if (key.ends_with(unit)) return key.substr(0, key.size() - unit.size());
   return key;
+}
+
+bool mentions(std::string_view text, std::string_view name) {
+  const auto within = [&](std::size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+  };
+  for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1))
+    if (!within(at - 1) && !within(at + name.size())) return true;
+  return false;
 }
 
 }  // namespace
@@ -244,25 +254,15 @@ void TomlTable::fail(std::string_view key, const std::string& what, const std::s
   state_->fail(lineOf(key), what, cure);
 }
 
-void TomlTable::locate(const std::function<void()>& check, const TomlTable* child) const {
+void TomlTable::locate(const std::function<void()>& check) const {
   try {
     check();
   } catch (const Error& error) {
-    // Of the keys that the error speaks of, one that the file sets; then the longest: `drag_area_x` is not
-    // `drag`.
-    const TomlTable* where = this;
     std::string_view culprit;
-    const std::string said = error.what();
-    const auto rank = [](const TomlTable& t, std::string_view key) {
-      return std::pair(t.has(key), key.size());
-    };
-    for (const TomlTable* table : {this, child != nullptr ? child : this})
-      for (const std::string& key : table->state_->known)
-        if (said.find(withoutUnit(key)) != std::string::npos && rank(*table, key) > rank(*where, culprit)) {
-          where = table;
-          culprit = key;
-        }
-    where->fail(culprit, error.problem(), error.cure());
+    const auto rank = [&](std::string_view key) { return std::pair(has(key), key.size()); };
+    for (const std::string& key : state_->known)
+      if (mentions(error.what(), withoutUnit(key)) && rank(key) > rank(culprit)) culprit = key;
+    fail(culprit, error.problem(), error.cure());
   }
 }
 

@@ -52,9 +52,9 @@ class TomlTable {
   /// Throws Error(kInput) at the line of `key`, or at the table's own when the file does not have that key.
   [[noreturn]] void fail(std::string_view key, const std::string& what, const std::string& cure) const;
 
-  /// Runs `check`; an Error from it comes out with the line of the key that it names (with or without its
-  /// unit), in this table or in `child`.
-  void locate(const std::function<void()>& check, const TomlTable* child = nullptr) const;
+  /// Runs `check`; an Error from it comes out with the line of the key that it names, with or without its
+  /// unit, else with the table's own line.
+  void locate(const std::function<void()>& check) const;
 
   int line() const;
   int lineOf(std::string_view key) const;

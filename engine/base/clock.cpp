@@ -16,7 +16,9 @@ TimeNs read(clockid_t clock) {
 
 MonotonicClock::MonotonicClock() : origin_(read(CLOCK_MONOTONIC)) {}
 
-TimeNs MonotonicClock::now() const { return read(CLOCK_MONOTONIC) - origin_; }
+TimeNs MonotonicClock::now() const {
+  return read(CLOCK_MONOTONIC) - origin_;
+}
 
 void MonotonicClock::sleepUntil(TimeNs time) {
   const TimeNs absolute = time + origin_;
@@ -25,6 +27,8 @@ void MonotonicClock::sleepUntil(TimeNs time) {
   }
 }
 
-TimeNs threadCpuTime() { return read(CLOCK_THREAD_CPUTIME_ID); }
+TimeNs threadCpuTime() {
+  return read(CLOCK_THREAD_CPUTIME_ID);
+}
 
 }  // namespace helical

@@ -12,8 +12,8 @@ enum class ErrorKind {
   kSystem,  ///< the machine refused (no space, no permission, no display): exit code 1
 };
 
-/// The one exception type: what went wrong, where, and what to do about it. Thrown by set-up, files and devices
-/// only; never on the flight thread.
+/// The one exception type: what went wrong, where, and what to do about it. Thrown by set-up, files and
+/// devices only; never on the flight thread.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, std::string what, std::string where = {}, std::string cure = {});

@@ -25,7 +25,11 @@ struct MarkerId {
   constexpr auto operator<=>(const MarkerId&) const = default;
 };
 
-constexpr CameraId cameraId(int index) { return CameraId{static_cast<std::uint8_t>(index)}; }
-constexpr MarkerId markerId(int index) { return MarkerId{static_cast<std::uint8_t>(index)}; }
+constexpr CameraId cameraId(int index) {
+  return CameraId{static_cast<std::uint8_t>(index)};
+}
+constexpr MarkerId markerId(int index) {
+  return MarkerId{static_cast<std::uint8_t>(index)};
+}
 
 }  // namespace helical

@@ -12,7 +12,8 @@ const double kLogRatio = std::log(1.02);
 }  // namespace
 
 void LatencyHistogram::add(TimeNs duration) {
-  const double scaled = std::log(std::max(static_cast<double>(duration), kFirstEdgeNs) / kFirstEdgeNs) / kLogRatio;
+  const double scaled =
+      std::log(std::max(static_cast<double>(duration), kFirstEdgeNs) / kFirstEdgeNs) / kLogRatio;
   ++bins_[static_cast<std::size_t>(std::clamp(static_cast<int>(scaled), 0, kBins - 1))];
   ++count_;
   maximum_ = std::max(maximum_, duration);
@@ -24,7 +25,8 @@ TimeNs LatencyHistogram::percentile(double fraction) const {
   std::uint64_t seen = 0;
   for (int bin = 0; bin < kBins; ++bin) {
     seen += bins_[static_cast<std::size_t>(bin)];
-    if (seen >= wanted) return std::min(maximum_, static_cast<TimeNs>(kFirstEdgeNs * std::exp((bin + 1) * kLogRatio)));
+    if (seen >= wanted)
+      return std::min(maximum_, static_cast<TimeNs>(kFirstEdgeNs * std::exp((bin + 1) * kLogRatio)));
   }
   return maximum_;
 }

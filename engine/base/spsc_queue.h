@@ -6,8 +6,8 @@
 
 namespace helical {
 
-/// Bounded wait-free queue from one producer thread to one consumer thread. `push` fails when full: the producer
-/// counts the drop and goes on.
+/// Bounded wait-free queue from one producer thread to one consumer thread. `push` fails when full: the
+/// producer counts the drop and goes on.
 template <class T, std::size_t Capacity>
 class SpscQueue {
   static_assert((Capacity & (Capacity - 1)) == 0, "capacity is a power of two");

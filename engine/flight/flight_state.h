@@ -19,8 +19,8 @@ enum class FlightPhase : std::uint8_t {
   kOff,        ///< done: rotors off
 };
 
-/// What the supervisor allows. Only ever worsens by itself, but for kCoasting and kDescending, which end when the pose
-/// is back; kCut is latched.
+/// What the supervisor allows. Only ever worsens by itself, but for kCoasting and kDescending, which end when
+/// the pose is back; kCut is latched.
 enum class SafetyState : std::uint8_t {
   kNormal,
   kCoasting,    ///< no pose for a moment: feedback fades to trim

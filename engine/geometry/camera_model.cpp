@@ -47,7 +47,8 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& point
   const Eigen::Vector2d b(point.x() * inverse_depth, point.y() * inverse_depth);
   if (b.squaredNorm() > max_radius2_) return std::nullopt;
   Eigen::Matrix2d jacobian = Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d d = has_distortion_ ? distort(b, d_pixel_d_point != nullptr ? &jacobian : nullptr) : b;
+  const Eigen::Vector2d d =
+      has_distortion_ ? distort(b, d_pixel_d_point != nullptr ? &jacobian : nullptr) : b;
   if (d_pixel_d_point != nullptr) {
     Eigen::Matrix<double, 2, 3> d_bearing;
     d_bearing << inverse_depth, 0.0, -b.x() * inverse_depth, 0.0, inverse_depth, -b.y() * inverse_depth;

@@ -22,8 +22,9 @@ class CameraModel {
   double cy() const { return cy_; }
   const std::array<double, 5>& distortion() const { return distortion_; }
 
-  /// Pixel of a point in the camera frame [m]; nothing for a point nearer than 5 cm or behind the camera, or so
-  /// far outside the image that the distortion polynomial folds back. `d_pixel_d_point` is the 2x3 Jacobian.
+  /// Pixel of a point in the camera frame [m]; nothing for a point nearer than 5 cm or behind the camera, or
+  /// so far outside the image that the distortion polynomial folds back. `d_pixel_d_point` is the 2x3
+  /// Jacobian.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_in_camera,
                                          Eigen::Matrix<double, 2, 3>* d_pixel_d_point = nullptr) const;
 

@@ -17,11 +17,11 @@ namespace {
 constexpr int kIterations = 12;
 constexpr double kUnseen = 1e12;
 
-/// Squared reprojection error and, on demand, the normal equations of the perturbation (rotation on the left in the
-/// camera frame, then translation).
+/// Squared reprojection error and, on demand, the normal equations of the perturbation (rotation on the left
+/// in the camera frame, then translation).
 double evaluate(const CameraModel& camera, std::span<const Eigen::Vector3d> points,
-                std::span<const Eigen::Vector2d> pixels, const RigidTransform& camera_from_body, Matrix6d* hessian,
-                Vector6d* gradient) {
+                std::span<const Eigen::Vector2d> pixels, const RigidTransform& camera_from_body,
+                Matrix6d* hessian, Vector6d* gradient) {
   hessian->setZero();
   gradient->setZero();
   double cost = 0.0;

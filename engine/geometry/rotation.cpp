@@ -48,6 +48,8 @@ double tiltOf(const Eigen::Quaterniond& q) {
   return std::acos(std::clamp(1.0 - 2.0 * (q.x() * q.x() + q.y() * q.y()), -1.0, 1.0));
 }
 
-double wrapAngle(double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); }
+double wrapAngle(double angle) {
+  return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi));
+}
 
 }  // namespace helical

@@ -27,7 +27,11 @@ double tiltOf(const Eigen::Quaterniond& world_from_body);
 double wrapAngle(double angle);
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double toRadians(double degrees) { return degrees * (kPi / 180.0); }
-constexpr double toDegrees(double radians) { return radians * (180.0 / kPi); }
+constexpr double toRadians(double degrees) {
+  return degrees * (kPi / 180.0);
+}
+constexpr double toDegrees(double radians) {
+  return radians * (180.0 / kPi);
+}
 
 }  // namespace helical

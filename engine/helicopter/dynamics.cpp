@@ -13,11 +13,12 @@ namespace {
 constexpr double kAirDensity = 1.2;
 
 // Skids: an assumption of 16 x 12 cm, stiff enough to sink 2 mm under the XRB's weight.
-constexpr std::array<std::array<double, 2>, 4> kSkidCorners{{{.08, .06}, {-.08, .06}, {-.08, -.06}, {.08, -.06}}};
+constexpr std::array<std::array<double, 2>, 4> kSkidCorners{
+    {{.08, .06}, {-.08, .06}, {-.08, -.06}, {.08, -.06}}};
 constexpr double kSkidStiffness = 260.0;  // N/m per corner
 constexpr double kSkidDamping = 6.0;      // N s/m per corner
 constexpr double kFriction = 0.5;
-constexpr double kFrictionSpeed = 0.02;   // m/s, below which Coulomb friction is smoothed
+constexpr double kFrictionSpeed = 0.02;  // m/s, below which Coulomb friction is smoothed
 
 /// A unit axis at `scale` times the angle of `axis` from z, in the same direction.
 Eigen::Vector3d scaledTilt(const Eigen::Vector3d& axis, double scale) {
@@ -92,15 +93,18 @@ Dynamics::Wrench Dynamics::rotors(const State& x, Eigen::Vector3d* tip_path_targ
   *tip_path_target =
       turnedAboutZ(scaledTilt(swash, lo.linkage), -(lo.phase_slope * lower_speed + lo.phase_offset));
 
-  const double upper_thrust = up.thrust_coefficient * upper_speed * upper_speed *
-                              groundEffect(z + up.height, parameters_.rotor_radius, parameters_.ground_effect);
-  const double lower_thrust = lo.thrust_coefficient * lower_speed * lower_speed *
-                              groundEffect(z + lo.height, parameters_.rotor_radius, parameters_.ground_effect);
+  const double upper_thrust =
+      up.thrust_coefficient * upper_speed * upper_speed *
+      groundEffect(z + up.height, parameters_.rotor_radius, parameters_.ground_effect);
+  const double lower_thrust =
+      lo.thrust_coefficient * lower_speed * lower_speed *
+      groundEffect(z + lo.height, parameters_.rotor_radius, parameters_.ground_effect);
   Wrench w;  // force still in the body here
   w.force_in_world = upper_thrust * upper_axis + lower_thrust * lower_axis;
   w.moment_in_body = up.height * upper_thrust * Eigen::Vector3d(-upper_axis.y(), upper_axis.x(), 0.0) +
                      lo.height * lower_thrust * Eigen::Vector3d(-lower_axis.y(), lower_axis.x(), 0.0) +
-                     hingeMoment(upper_axis, up.hinge_stiffness) + hingeMoment(lower_axis, lo.hinge_stiffness);
+                     hingeMoment(upper_axis, up.hinge_stiffness) +
+                     hingeMoment(lower_axis, lo.hinge_stiffness);
   w.moment_in_body.z() =
       -up.drag_coefficient * upper_speed * upper_speed + lo.drag_coefficient * lower_speed * lower_speed;
   w.moment_in_body += Eigen::Vector3d(-parameters_.thrust_offset_x, -parameters_.thrust_offset_y, 0.0)
@@ -108,7 +112,8 @@ Dynamics::Wrench Dynamics::rotors(const State& x, Eigen::Vector3d* tip_path_targ
   return w;
 }
 
-Dynamics::Wrench Dynamics::ground(const State& x, const Eigen::Matrix3d& world_from_body, bool* touching) const {
+Dynamics::Wrench Dynamics::ground(const State& x, const Eigen::Matrix3d& world_from_body,
+                                  bool* touching) const {
   Wrench w{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   const Eigen::Vector3d spin = x.segment<3>(kSpin);
   for (const auto& corner : kSkidCorners) {
@@ -119,8 +124,8 @@ Dynamics::Wrench Dynamics::ground(const State& x, const Eigen::Matrix3d& world_f
     const Eigen::Vector3d velocity = x.segment<3>(kVelocity) + world_from_body * spin.cross(in_body);
     const double normal = std::max(0.0, -kSkidStiffness * height - kSkidDamping * velocity.z());
     const double slide = std::max(velocity.head<2>().norm(), kFrictionSpeed);
-    const Eigen::Vector3d force(-kFriction * normal * velocity.x() / slide, -kFriction * normal * velocity.y() / slide,
-                                normal);
+    const Eigen::Vector3d force(-kFriction * normal * velocity.x() / slide,
+                                -kFriction * normal * velocity.y() / slide, normal);
     w.force_in_world += force;
     w.moment_in_body += in_body.cross(world_from_body.transpose() * force);
   }
@@ -153,7 +158,8 @@ Dynamics::State Dynamics::derivative(const State& x, const StickDemand& demand, 
   d.segment<3>(kVelocity) = w.force_in_world / p.mass - Eigen::Vector3d(0, 0, kGravity);
   const double qw = x[kRotation], qx = x[kRotation + 1], qy = x[kRotation + 2], qz = x[kRotation + 3];
   d.segment<4>(kRotation) << 0.5 * (-qx * spin.x() - qy * spin.y() - qz * spin.z()),
-      0.5 * (qw * spin.x() + qy * spin.z() - qz * spin.y()), 0.5 * (qw * spin.y() - qx * spin.z() + qz * spin.x()),
+      0.5 * (qw * spin.x() + qy * spin.z() - qz * spin.y()),
+      0.5 * (qw * spin.y() - qx * spin.z() + qz * spin.x()),
       0.5 * (qw * spin.z() + qx * spin.y() - qy * spin.x());
   const Eigen::Vector3d inertia(p.inertia_x, p.inertia_y, p.inertia_z);
   d.segment<3>(kSpin) =
@@ -170,8 +176,8 @@ Dynamics::State Dynamics::derivative(const State& x, const StickDemand& demand, 
   const double sine = bar.head<2>().norm();
   Eigen::Vector3d relax = Eigen::Vector3d::Zero();
   if (sine > 1e-8)
-    relax = Eigen::Vector3d(-bar.x() * bar.z() / sine, -bar.y() * bar.z() / sine, sine) * std::atan2(sine, bar.z()) /
-            p.bar_time;
+    relax = Eigen::Vector3d(-bar.x() * bar.z() / sine, -bar.y() * bar.z() / sine, sine) *
+            std::atan2(sine, bar.z()) / p.bar_time;
   d.segment<3>(kBar) = relax - spin.cross(bar);
   const Eigen::Vector3d tip_path = x.segment<3>(kTipPath).normalized();
   d.segment<3>(kTipPath) = (tip_path_target - tip_path) / p.lower_tip_path_time - spin.cross(tip_path);

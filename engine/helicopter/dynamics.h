@@ -14,10 +14,11 @@ struct Gust {
   Eigen::Vector3d moment_in_body = Eigen::Vector3d::Zero();
 };
 
-/// Non-linear equations of motion of a coaxial helicopter with stabiliser bar: rigid body, rotor speeds, bar axis and
-/// lower tip-path axis (21 states), integrated by Runge-Kutta 4, with swash-plate servos, ground effect and skids on
-/// the ground (spring, damper, Coulomb friction at four corners). Model: see HelicopterParameters; the lower rotor's
-/// tip-path lag is added because the published model is unstable in attitude without it. One thread.
+/// Non-linear equations of motion of a coaxial helicopter with stabiliser bar: rigid body, rotor speeds, bar
+/// axis and lower tip-path axis (21 states), integrated by Runge-Kutta 4, with swash-plate servos, ground
+/// effect and skids on the ground (spring, damper, Coulomb friction at four corners). Model: see
+/// HelicopterParameters; the lower rotor's tip-path lag is added because the published model is unstable in
+/// attitude without it. One thread.
 class Dynamics {
  public:
   explicit Dynamics(const HelicopterParameters& parameters);
@@ -38,9 +39,19 @@ class Dynamics {
 
  private:
   using State = Eigen::Matrix<double, 21, 1>;
-  enum Index { kPosition = 0, kVelocity = 3, kRotation = 6, kSpin = 10, kUpperSpeed = 13, kLowerSpeed = 14, kBar = 15,
-               kTipPath = 18 };
-  struct Wrench { Eigen::Vector3d force_in_world, moment_in_body; };
+  enum Index {
+    kPosition = 0,
+    kVelocity = 3,
+    kRotation = 6,
+    kSpin = 10,
+    kUpperSpeed = 13,
+    kLowerSpeed = 14,
+    kBar = 15,
+    kTipPath = 18
+  };
+  struct Wrench {
+    Eigen::Vector3d force_in_world, moment_in_body;
+  };
 
   State derivative(const State& x, const StickDemand& demand, const Gust& gust, bool* touching) const;
   Wrench rotors(const State& x, Eigen::Vector3d* tip_path_target) const;

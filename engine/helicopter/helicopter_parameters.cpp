@@ -8,9 +8,9 @@ namespace helical {
 namespace {
 
 void varyRotor(RotorParameters& rotor, double fraction, Random& random) {
-  for (double* value : {&rotor.thrust_coefficient, &rotor.drag_coefficient, &rotor.height, &rotor.hinge_stiffness,
-                        &rotor.linkage, &rotor.motor_time, &rotor.motor_gain, &rotor.motor_offset, &rotor.phase_slope,
-                        &rotor.phase_offset})
+  for (double* value : {&rotor.thrust_coefficient, &rotor.drag_coefficient, &rotor.height,
+                        &rotor.hinge_stiffness, &rotor.linkage, &rotor.motor_time, &rotor.motor_gain,
+                        &rotor.motor_offset, &rotor.phase_slope, &rotor.phase_offset})
     *value *= 1.0 + fraction * random.uniform(-1.0, 1.0);
 }
 
@@ -18,9 +18,9 @@ HelicopterParameters drawOnce(HelicopterParameters p, double fraction, Random& r
   varyRotor(p.upper, fraction, random);
   varyRotor(p.lower, fraction, random);
   for (double* value :
-       {&p.mass, &p.inertia_x, &p.inertia_y, &p.inertia_z, &p.bar_time, &p.lower_tip_path_time, &p.swash_plate_range,
-        &p.swash_plate_rate, &p.drag_coefficient, &p.drag_area_x, &p.drag_area_y, &p.drag_area_z, &p.lateral_damping,
-        &p.vertical_damping, &p.ground_effect})
+       {&p.mass, &p.inertia_x, &p.inertia_y, &p.inertia_z, &p.bar_time, &p.lower_tip_path_time,
+        &p.swash_plate_range, &p.swash_plate_rate, &p.drag_coefficient, &p.drag_area_x, &p.drag_area_y,
+        &p.drag_area_z, &p.lateral_damping, &p.vertical_damping, &p.ground_effect})
     *value *= 1.0 + fraction * random.uniform(-1.0, 1.0);
   p.swash_plate_offset_roll = 0.3 * fraction * random.uniform(-1.0, 1.0);
   p.swash_plate_offset_pitch = 0.3 * fraction * random.uniform(-1.0, 1.0);
@@ -67,8 +67,9 @@ HelicopterParameters varied(const HelicopterParameters& nominal, double fraction
     const HelicopterParameters p = drawOnce(nominal, fraction, random);
     if (canHover(p)) return p;
   }
-  throw Error(ErrorKind::kInput, "no helicopter within +-" + std::to_string(fraction) + " of these parameters hovers",
-              {}, "lower --vary or check [helicopter.parameters]");
+  throw Error(ErrorKind::kInput,
+              "no helicopter within +-" + std::to_string(fraction) + " of these parameters hovers", {},
+              "lower --vary or check [helicopter.parameters]");
 }
 
 }  // namespace helical

@@ -9,15 +9,17 @@ namespace helical {
 
 MarkerLayout::MarkerLayout(std::span<const Eigen::Vector3d> markers_in_body, double radius) {
   if (markers_in_body.size() < 3 || markers_in_body.size() > kMaxMarkers)
-    throw Error(ErrorKind::kInput, "a helicopter has " + std::to_string(markers_in_body.size()) + " markers", {},
-                "give 3 to " + std::to_string(kMaxMarkers) + " marker positions");
-  if (!(radius > 0.0)) throw Error(ErrorKind::kInput, "the marker radius is not positive", {}, "give it in metres");
+    throw Error(ErrorKind::kInput, "a helicopter has " + std::to_string(markers_in_body.size()) + " markers",
+                {}, "give 3 to " + std::to_string(kMaxMarkers) + " marker positions");
+  if (!(radius > 0.0))
+    throw Error(ErrorKind::kInput, "the marker radius is not positive", {}, "give it in metres");
   const Eigen::Vector3d& first = markers_in_body.front();
   double widest = 0.0;
   for (const auto& a : markers_in_body)
     for (const auto& b : markers_in_body) widest = std::max(widest, (a - first).cross(b - first).norm());
   if (widest < 1e-4)
-    throw Error(ErrorKind::kInput, "the markers lie on one line", {}, "spread them over a plane of some centimetres");
+    throw Error(ErrorKind::kInput, "the markers lie on one line", {},
+                "spread them over a plane of some centimetres");
   std::copy(markers_in_body.begin(), markers_in_body.end(), markers_.begin());
   count_ = static_cast<int>(markers_in_body.size());
   radius_ = radius;

@@ -8,9 +8,9 @@
 
 namespace helical {
 
-/// A flight in real time: one capture thread per camera, one tracking and flight thread, one output thread. This is the
-/// whole of the engine that the window knows. Reading methods are for one thread (the window's); none of them blocks
-/// the engine, nor does the engine ever wait for them.
+/// A flight in real time: one capture thread per camera, one tracking and flight thread, one output thread.
+/// This is the whole of the engine that the window knows. Reading methods are for one thread (the window's);
+/// none of them blocks the engine, nor does the engine ever wait for them.
 class Engine {
  public:
   /// Builds sources and transmitter as the rig says. Throws Error when something is missing.
@@ -27,9 +27,9 @@ class Engine {
   bool running() const;
 
   /// Commands: any thread, wait-free.
-  void takeOff();                               ///< starts the plan from the ground
-  void land();                                  ///< lands where it is
-  void kill();                                  ///< rotors off at once, latched; bypasses every queue
+  void takeOff();  ///< starts the plan from the ground
+  void land();     ///< lands where it is
+  void kill();     ///< rotors off at once, latched; bypasses every queue
   void hideCamera(CameraId camera, bool hidden);
 
   /// True if `snapshot()` is newer than at the last call.

@@ -9,6 +9,7 @@
 #include "engine/flight/flight_state.h"
 #include "engine/geometry/camera_estimate.h"
 #include "engine/helicopter/stick_demand.h"
+#include "engine/simulator/verdict.h"
 #include "engine/tracking/track.h"
 
 namespace helical {
@@ -16,12 +17,14 @@ namespace helical {
 /// One camera as the flight thread sees it.
 struct CameraSnapshot {
   CameraEstimate estimate;
-  bool hidden = false;              ///< by the operator: its observations are thrown away
-  std::uint64_t frames = 0;         ///< received
-  std::uint64_t dropped = 0;        ///< missing in the sequence, or lost because a queue was full
+  bool hidden = false;        ///< by the operator: its observations are thrown away
+  std::uint64_t frames = 0;   ///< received
+  std::uint64_t dropped = 0;  ///< missing in the sequence, or lost because a queue was full
   double frames_per_second = 0.0;
-  TimeNs latency = 0;               ///< mid-exposure to its use on the flight thread, newest frame
-  int centroids = 0;                ///< regions found in the newest frame
+  TimeNs latency = 0;         ///< mid-exposure to its use on the flight thread, newest frame
+  int centroids = 0;          ///< regions found in the newest frame
+  TimeNs extraction_p50 = 0;  ///< processor time a frame; 0 without images
+  TimeNs extraction_p99 = 0;
   CameraTrack track;
 };
 
@@ -31,18 +34,21 @@ struct EngineSnapshot {
   std::uint64_t tick = 0;
   int camera_count = 0;
   int marker_count = 0;
-  bool pose_known = false;          ///< tracked now
-  TimeNs pose_age = 0;              ///< since the last accepted observation
+  bool pose_known = false;  ///< tracked now
+  TimeNs pose_age = 0;      ///< since the last accepted observation
   FlightPhase phase = FlightPhase::kIdle;
   SafetyState safety = SafetyState::kNormal;
-  std::uint32_t failsafes = 0;      ///< bits of Failsafe that have acted
-  TrackedState tracked;             ///< at `time`
+  std::uint32_t failsafes = 0;  ///< bits of Failsafe that have acted
+  TrackedState tracked;         ///< at `time`
   SetPoint set_point;
-  double pad_height = 0.0;          ///< of the body's origin standing on the pad [m]
+  bool hovering = false;       ///< has reached the first waypoint and is not landing
+  double flight_time_s = 0.0;  ///< since the rotors started
+  double pad_height = 0.0;     ///< of the body's origin standing on the pad [m]
   StickDemand sticks;
-  bool has_truth = false;           ///< simulated flights only
-  HelicopterState truth;            ///< at `time`
-  TimeNs server_p50 = 0;            ///< observation in hand to command out, flight thread
+  bool has_truth = false;  ///< simulated flights only
+  HelicopterState truth;   ///< at `time`
+  Verdict verdict;         ///< valid with `has_truth`
+  TimeNs server_p50 = 0;   ///< observation in hand to command out, flight thread
   TimeNs server_p99 = 0;
   TimeNs frame_to_command_p50 = 0;  ///< arrival of the frame to the command that first used it
   TimeNs frame_to_command_p99 = 0;

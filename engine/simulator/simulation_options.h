@@ -27,25 +27,25 @@ struct Bump {
 /// Image-free observations: what the extractor makes of rendered images, as numbers. Fitted to the renderer;
 /// tests/simulator compares the two.
 struct ObservationNoise {
-  double sigma_px = 0.13;           ///< per axis, frame to frame
-  double bias_px = 0.08;            ///< per axis, of an offset that changes slowly
-  double bias_time_s = 0.3;         ///< correlation time of that offset
-  double dropout = 0.002;           ///< a visible ball is not found
-  double false_markers = 0.001;     ///< per frame: a region somewhere in the image
-  double outliers = 0.0;            ///< share of centroids thrown up to 80 px aside
+  double sigma_px = 0.13;        ///< per axis, frame to frame
+  double bias_px = 0.08;         ///< per axis, of an offset that changes slowly
+  double bias_time_s = 0.3;      ///< correlation time of that offset
+  double dropout = 0.002;        ///< a visible ball is not found
+  double false_markers = 0.001;  ///< per frame: a region somewhere in the image
+  double outliers = 0.0;         ///< share of centroids thrown up to 80 px aside
 };
 
 struct SimulationOptions {
   std::uint64_t seed = 1;
   bool images = true;
   double gust_factor = 1.0;
-  double vary = 0.0;              ///< fraction, of every helicopter parameter
+  double vary = 0.0;  ///< fraction, of every helicopter parameter
   double camera_rate_hz = 60.0;
-  double rate_error = 1e-4;       ///< relative, drawn per camera: their clocks are not synchronised
-  double readout_delay_s = 0.015; ///< mid-exposure to arrival
-  double field_empty_s = 0.25;    ///< before the helicopter is put on the pad: time to take the background
-  double image_noise = 2.0;       ///< grey levels, standard deviation
-  double light_drift = 0.05;      ///< relative, over half a minute
+  double rate_error = 1e-4;        ///< relative, drawn per camera: their clocks are not synchronised
+  double readout_delay_s = 0.015;  ///< mid-exposure to arrival
+  double field_empty_s = 0.25;     ///< before the helicopter is put on the pad: time to take the background
+  double image_noise = 2.0;        ///< grey levels, standard deviation
+  double light_drift = 0.05;       ///< relative, over half a minute
   ObservationNoise noise;
   std::vector<Occlusion> occlusions;
   std::vector<Bump> bumps;

@@ -12,8 +12,8 @@
 
 namespace helical {
 
-/// The helicopter's estimated state at one time. `pose_covariance` is of (position in world [m], rotation vector on the
-/// right of world_from_body [rad]).
+/// The helicopter's estimated state at one time. `pose_covariance` is of (position in world [m], rotation
+/// vector on the right of world_from_body [rad]).
 struct TrackedState {
   TimeNs time = 0;
   HelicopterState state;
@@ -22,9 +22,9 @@ struct TrackedState {
 
 /// How one marker fared in one camera's newest frame.
 struct MarkerTrack {
-  bool observed = false;   ///< a centroid was named after it
-  bool selected = false;   ///< and that centroid was used for the pose
-  bool predicted = false;  ///< `reprojected` is valid
+  bool observed = false;                                  ///< a centroid was named after it
+  bool selected = false;                                  ///< and that centroid was used for the pose
+  bool predicted = false;                                 ///< `reprojected` is valid
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();        ///< the centroid
   Eigen::Vector2d reprojected = Eigen::Vector2d::Zero();  ///< from the pose after the update
 };

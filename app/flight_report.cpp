@@ -1,0 +1,118 @@
+#include "app/flight_report.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "engine/geometry/rotation.h"
+
+namespace helical {
+namespace {
+
+using nlohmann::json;
+
+/// A figure without samples is null, not zero.
+json figure(const RunningRms& rms, double scale = 1.0) {
+  return rms.count() > 0 ? json(scale * rms.value()) : json(nullptr);
+}
+
+json microseconds(TimeNs p50, TimeNs p99) {
+  if (p99 == 0) return {{"p50", nullptr}, {"p99", nullptr}};
+  return {{"p50", static_cast<double>(p50) * 1e-3}, {"p99", static_cast<double>(p99) * 1e-3}};
+}
+
+json noCalibration() {
+  json fields;
+  for (const char* key :
+       {"method", "time_to_1cm_s", "position_error_m", "orientation_error_deg", "position_sigma_m",
+        "orientation_sigma_deg", "crlb_position_m", "crlb_orientation_deg", "nees", "bumps_detected"})
+    fields[key] = nullptr;
+  return fields;
+}
+
+json cameraJson(const CameraConfig& config, const CameraSnapshot& camera) {
+  return {{"id", config.label},
+          {"calibrated", camera.estimate.status == CameraStatus::kCalibrated},
+          {"frames", camera.frames},
+          {"dropped", camera.dropped},
+          {"extraction_us", microseconds(camera.extraction_p50, camera.extraction_p99)},
+          {"calibration", noCalibration()}};
+}
+
+std::string outcome(const FlightRun& run) {
+  return outcomeOf(run.last.verdict, run.score.failsafes());
+}
+
+std::string line(const char* format, auto... values) {
+  char buffer[256];
+  std::snprintf(buffer, sizeof buffer, format, values...);
+  return buffer;
+}
+
+}  // namespace
+
+std::string flightJson(const FlightRun& run, const RigConfig& rig) {
+  const FlightScore& score = run.score;
+  json report;
+  report["outcome"] = outcome(run);
+  report["crash_reason"] = run.last.verdict.crashed ? json(run.last.verdict.reason) : json(nullptr);
+  report["duration_s"] = toSeconds(run.last.time);
+  report["simulated_over_wall"] = toSeconds(run.last.time) / run.wall_s;
+  report["tracking"] = {{"position_rms_m", figure(score.trackedPosition())},
+                        {"orientation_rms_deg", figure(score.trackedOrientation(), toDegrees(1.0))},
+                        {"lost_s", score.lostSeconds()},
+                        {"nees", score.neesSamples() > 0 ? json(score.nees()) : json(nullptr)}};
+  report["control"] = {{"position_rms_m", figure(score.hoverHorizontal())},
+                       {"height_rms_m", figure(score.hoverHeight())},
+                       {"yaw_rms_deg", figure(score.hoverYaw(), toDegrees(1.0))}};
+  report["touchdown_m_s"] = run.last.verdict.hardest_touch;
+  report["cameras"] = json::array();
+  json selected = json::object();
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    report["cameras"].push_back(cameraJson(rig.cameras[i], run.last.cameras[i]));
+    selected[rig.cameras[i].label] = 100.0 * score.selectedShare(cameraId(static_cast<int>(i)));
+  }
+  report["selected_features"] = selected;
+  report["server_us"] = microseconds(run.last.server_p50, run.last.server_p99);
+  report["frame_to_command_us"] = microseconds(run.last.frame_to_command_p50, run.last.frame_to_command_p99);
+  report["failsafes"] = failsafeNames(score.failsafes());
+  report["session"] = nullptr;
+  return report.dump(2);
+}
+
+std::string flightText(const FlightRun& run, const RigConfig& rig) {
+  const FlightScore& score = run.score;
+  const double simulated_s = toSeconds(run.last.time);
+  std::string text = line("%s after %.1f s (%.1f times real time)", outcome(run).c_str(), simulated_s,
+                          simulated_s / run.wall_s);
+  if (run.last.verdict.crashed)
+    text += line(": %s at %.1f s", run.last.verdict.reason, run.last.verdict.crash_time_s);
+  text += "\n";
+  if (score.hoverHorizontal().count() > 0)
+    text += line("  hover     %.1f mm horizontal, %.1f mm height, %.1f deg yaw (RMS to the set-point)\n",
+                 1e3 * score.hoverHorizontal().value(), 1e3 * score.hoverHeight().value(),
+                 toDegrees(score.hoverYaw().value()));
+  if (score.trackedPosition().count() > 0)
+    text += line("  tracking  %.2f mm, %.2f deg (RMS to the truth), pose lost for %.2f s\n",
+                 1e3 * score.trackedPosition().value(), toDegrees(score.trackedOrientation().value()),
+                 score.lostSeconds());
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraSnapshot& camera = run.last.cameras[i];
+    text +=
+        line("  camera %-3s %s, %llu frames, %llu dropped, %.0f %% of its markers used",
+             rig.cameras[i].label.c_str(),
+             camera.estimate.status == CameraStatus::kCalibrated ? "calibrated" : "not calibrated",
+             static_cast<unsigned long long>(camera.frames), static_cast<unsigned long long>(camera.dropped),
+             100.0 * score.selectedShare(cameraId(static_cast<int>(i))));
+    if (camera.extraction_p99 > 0)
+      text += line(", extraction %.0f us (99 %%: %.0f)", static_cast<double>(camera.extraction_p50) * 1e-3,
+                   static_cast<double>(camera.extraction_p99) * 1e-3);
+    text += "\n";
+  }
+  text +=
+      line("  server    %.0f us per command (99 %%: %.0f)\n", static_cast<double>(run.last.server_p50) * 1e-3,
+           static_cast<double>(run.last.server_p99) * 1e-3);
+  for (const auto& name : failsafeNames(score.failsafes())) text += "  failsafe  " + name + "\n";
+  return text;
+}
+
+}  // namespace helical

@@ -1,0 +1,89 @@
+#include "app/flight_run.h"
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "engine/base/clock.h"
+#include "engine/pipeline/engine.h"
+#include "engine/pipeline/lock_step.h"
+
+namespace helical {
+namespace {
+
+constexpr double kAfterwardsS = 0.5;  // watched after the flight has ended
+
+/// The operator of a headless flight: starts the plan once the pose is known, and knows when it is over.
+class Operator {
+ public:
+  Operator(const FlightPlan& plan, double limit_s) : plan_(plan), limit_s_(limit_s) {}
+
+  bool wantsTakeOff(const EngineSnapshot& now) {
+    if (ordered_ || !now.pose_known) return false;
+    if (pose_since_ < 0) pose_since_ = now.time;
+    ordered_ = toSeconds(now.time - pose_since_) >= plan_.start_delay_s;
+    return ordered_;
+  }
+
+  bool isOver(const EngineSnapshot& now) {
+    const bool landed = now.phase == FlightPhase::kOff && now.verdict.at_rest;
+    if (!landed && !now.verdict.crashed)
+      ended_ = -1;
+    else if (ended_ < 0)
+      ended_ = now.time;
+    return toSeconds(now.time) >= limit_s_ || (ended_ >= 0 && toSeconds(now.time - ended_) >= kAfterwardsS);
+  }
+
+ private:
+  const FlightPlan& plan_;
+  double limit_s_;
+  bool ordered_ = false;
+  TimeNs pose_since_ = -1;
+  TimeNs ended_ = -1;
+};
+
+void fly(LockStep& flight, Operator& pilot, FlightRun& run, const FlightProgress& progress) {
+  OperatorCommands commands;
+  do {
+    run.last = flight.tick(commands);
+    run.score.add(run.last);
+    commands.take_off = pilot.wantsTakeOff(run.last);
+    if (run.last.tick % 60 == 0) progress(run.last);
+  } while (!pilot.isOver(run.last));
+}
+
+void fly(Engine& engine, Operator& pilot, FlightRun& run, const FlightProgress& progress) {
+  engine.start();
+  for (bool over = false; !over;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    while (!over && engine.nextTick(run.last)) {
+      run.score.add(run.last);
+      if (pilot.wantsTakeOff(run.last)) engine.takeOff();
+      if (run.last.tick % 60 == 0) progress(run.last);
+      over = pilot.isOver(run.last);
+    }
+  }
+  engine.stop();
+}
+
+}  // namespace
+
+FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
+                    const FlightProgress& progress) {
+  FlightRun run;
+  Operator pilot(plan, limit_s);
+  if (realtime) {
+    Engine engine(rig, plan);
+    const MonotonicClock stopwatch;
+    fly(engine, pilot, run, progress);
+    run.wall_s = toSeconds(stopwatch.now());
+  } else {
+    LockStep flight(rig, plan);
+    const MonotonicClock stopwatch;
+    fly(flight, pilot, run, progress);
+    run.wall_s = toSeconds(stopwatch.now());
+  }
+  return run;
+}
+
+}  // namespace helical

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+
+#include "engine/config/rig_config.h"
+#include "engine/flight/flight_plan.h"
+#include "engine/pipeline/flight_score.h"
+#include "engine/pipeline/snapshot.h"
+
+namespace helical {
+
+/// How one simulated flight went.
+struct FlightRun {
+  FlightScore score;
+  EngineSnapshot last;  ///< state at the end
+  double wall_s = 0.0;
+};
+
+/// Called about once per simulated second with the newest state.
+using FlightProgress = std::function<void(const EngineSnapshot&)>;
+
+/// Flies the plan from take-off to rest (or crash, or `limit_s`), headless: in lock step, or with `realtime`
+/// in the engine's own threads at the pace of the wall clock.
+FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
+                    const FlightProgress& progress);
+
+}  // namespace helical

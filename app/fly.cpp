@@ -1,0 +1,147 @@
+#include "app/fly.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/flight_report.h"
+#include "app/flight_run.h"
+#include "app/option_values.h"
+#include "app/progress.h"
+#include "engine/base/error.h"
+#include "engine/config/plan_file.h"
+#include "engine/config/resource_files.h"
+#include "engine/config/rig_file.h"
+
+namespace helical {
+namespace {
+
+constexpr double kBeforeLiftOffS = 1.0;  // of a session: empty field, finding the pose, start delay
+constexpr double kLandingS = 6.0;        // descent and rotors off
+constexpr double kShortestFlightS = 6.0;
+constexpr double kTimeToSpare = 20.0;  // beyond the plan's landing before a flight counts as aborted
+
+struct FlyArguments {
+  std::string rig;
+  std::string plan = "hover";
+  std::uint64_t seed = 1;
+  double duration_s = 0.0;
+  bool no_images = false;
+  bool realtime = false;
+  bool json = false;
+  std::vector<std::string> occlude;
+  std::vector<std::string> bump;
+  std::vector<std::string> uncalibrated;
+  double pixel_noise = -1.0;
+  double outliers = -1.0;
+  double gust = -1.0;
+  double vary = -1.0;
+  double rate = -1.0;
+};
+
+RigConfig configuredRig(const FlyArguments& arguments) {
+  RigConfig rig = loadRig(arguments.rig.empty() ? resourceFolder() / "rigs" / "paper.toml"
+                                                : std::filesystem::path(arguments.rig));
+  SimulationOptions& simulation = rig.simulation;
+  simulation.seed = arguments.seed;
+  simulation.images = !arguments.no_images;
+  if (arguments.pixel_noise >= 0.0) simulation.noise.sigma_px = arguments.pixel_noise;
+  if (arguments.outliers >= 0.0) simulation.noise.outliers = arguments.outliers;
+  if (arguments.gust >= 0.0) simulation.gust_factor = arguments.gust;
+  if (arguments.vary >= 0.0) simulation.vary = arguments.vary;
+  if (arguments.rate > 0.0) simulation.camera_rate_hz = arguments.rate;
+  for (const auto& text : arguments.occlude) simulation.occlusions.push_back(parseOcclusion(text, rig));
+  for (const auto& text : arguments.bump) simulation.bumps.push_back(parseBump(text, rig));
+  simulation.true_camera_from_world.resize(rig.cameras.size());
+  for (const auto& label : arguments.uncalibrated) {
+    const auto index = static_cast<std::size_t>(rig.camera(label).index());
+    auto& truth = simulation.true_camera_from_world[index];
+    if (!truth) truth = rig.cameras[index].camera_from_world;
+    rig.cameras[index].camera_from_world.reset();
+  }
+  validate(simulation);
+  return rig;
+}
+
+FlightPlan configuredPlan(const FlyArguments& arguments) {
+  FlightPlan plan = loadPlan(planPath(arguments.plan));
+  if (arguments.duration_s > 0.0) {
+    plan.land_at_s = arguments.duration_s - kBeforeLiftOffS - kLandingS;
+    if (plan.land_at_s < kShortestFlightS)
+      throw Error(
+          ErrorKind::kInput, "--duration " + std::to_string(arguments.duration_s) + " is too short to fly",
+          {}, "give at least " + std::to_string(kBeforeLiftOffS + kLandingS + kShortestFlightS) + " seconds");
+  }
+  return plan;
+}
+
+/// Longest time the plan can take: every leg at its speed, every hold.
+double plannedSeconds(const FlightPlan& plan) {
+  double total = kBeforeLiftOffS + kLandingS;
+  if (plan.land_at_s > 0.0) return total + plan.land_at_s;
+  total += 5.0 + plan.waypoints.front().position_above_pad.z() / plan.climb_speed;
+  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {
+    total += plan.waypoints[i].hold_s + 3.0;
+    if (i > 0)
+      total += (plan.waypoints[i].position_above_pad - plan.waypoints[i - 1].position_above_pad).norm() /
+               plan.waypoints[i].speed;
+  }
+  return total;
+}
+
+int fly(const FlyArguments& arguments) {
+  const RigConfig rig = configuredRig(arguments);
+  const FlightPlan plan = configuredPlan(arguments);
+  const double planned_s = plannedSeconds(plan);
+  FlightRun run;
+  {
+    Progress progress("Flying " + plan.name);
+    run = runFlight(rig, plan, planned_s + kTimeToSpare, arguments.realtime, [&](const EngineSnapshot& now) {
+      progress.update(toSeconds(now.time) / planned_s, toString(now.phase));
+    });
+  }
+  const std::string report = arguments.json ? flightJson(run, rig) + "\n" : flightText(run, rig);
+  if (std::fputs(report.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw Error(ErrorKind::kSystem, "the report cannot be written to standard output", {},
+                "check the disk or the pipe");
+  return outcomeOf(run.last.verdict, run.score.failsafes()) == "landed" ? 0 : 1;
+}
+
+}  // namespace
+
+void addFlyCommand(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<FlyArguments>();
+  CLI::App* command = app.add_subcommand("fly", "Fly once, headless, in simulation");
+  command->add_option("--rig", arguments->rig, "Rig file (default: the paper's rig)");
+  command->add_option("--plan", arguments->plan, "Flight plan: hover, waypoints, or a file")
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of everything that is drawn at random")
+      ->capture_default_str();
+  command->add_option("--duration", arguments->duration_s, "Length of the session in seconds")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-images", arguments->no_images, "Simulate observations instead of pixels");
+  command->add_option("--occlude", arguments->occlude, "CAM@FROM-TO: a white board before a camera [s]");
+  command->add_option("--bump", arguments->bump,
+                      "CAM@T:DEG,M: knock a camera at T [s] by degrees and metres");
+  command->add_option("--pixel-noise", arguments->pixel_noise, "Centroid noise without images [px]")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--outliers", arguments->outliers, "Share of centroids thrown aside, without images")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--gust", arguments->gust, "Scales the gusts; 0 is still air")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--vary", arguments->vary, "Draws every helicopter parameter within +-FRACTION")
+      ->check(CLI::Range(0.0, 0.9));
+  command->add_option("--uncalibrated", arguments->uncalibrated, "CAM,...: cameras whose pose is not known")
+      ->delimiter(',');
+  command->add_option("--rate", arguments->rate, "Frame rate of the cameras [Hz]")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--realtime", arguments->realtime,
+                    "At the pace of the wall clock, in the engine's own threads");
+  command->add_flag("--json", arguments->json, "Print one JSON object");
+  command->callback([arguments, &exit_code] { exit_code = fly(*arguments); });
+}
+
+}  // namespace helical

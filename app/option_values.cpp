@@ -1,0 +1,73 @@
+#include "app/option_values.h"
+
+#include <charconv>
+#include <string_view>
+
+#include "engine/base/error.h"
+#include "engine/geometry/rotation.h"
+
+namespace helical {
+namespace {
+
+/// Reads values between literal separators from left to right.
+class Scanner {
+ public:
+  Scanner(std::string_view text, std::string_view option, std::string_view form)
+      : text_(text), rest_(text), option_(option), form_(form) {}
+
+  std::string label(char end) {
+    const std::size_t at = rest_.rfind(end);  // labels may hold any character; the last separator counts
+    if (at == std::string_view::npos || at == 0) fail();
+    std::string result(rest_.substr(0, at));
+    rest_.remove_prefix(at + 1);
+    return result;
+  }
+
+  double number(char end = '\0') {
+    double value = 0.0;
+    const auto [next, code] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (code != std::errc()) fail();
+    rest_.remove_prefix(static_cast<std::size_t>(next - rest_.data()));
+    if (end == '\0') {
+      if (!rest_.empty()) fail();
+    } else {
+      if (rest_.empty() || rest_.front() != end) fail();
+      rest_.remove_prefix(1);
+    }
+    return value;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw Error(ErrorKind::kInput, std::string(option_) + " " + std::string(text_) + " is not understood", {},
+                "give " + std::string(form_));
+  }
+
+  std::string_view text_;
+  std::string_view rest_;
+  std::string_view option_;
+  std::string_view form_;
+};
+
+}  // namespace
+
+Occlusion parseOcclusion(const std::string& text, const RigConfig& rig) {
+  Scanner scanner(text, "--occlude", "CAM@FROM-TO, as in 2@13-25 (seconds)");
+  Occlusion occlusion;
+  occlusion.camera = rig.camera(scanner.label('@'));
+  occlusion.from_s = scanner.number('-');
+  occlusion.to_s = scanner.number();
+  return occlusion;
+}
+
+Bump parseBump(const std::string& text, const RigConfig& rig) {
+  Scanner scanner(text, "--bump", "CAM@T:DEG,M, as in 3@10:5,0.05 (seconds, degrees, metres)");
+  Bump bump;
+  bump.camera = rig.camera(scanner.label('@'));
+  bump.at_s = scanner.number(':');
+  bump.angle = toRadians(scanner.number(','));
+  bump.distance = scanner.number();
+  return bump;
+}
+
+}  // namespace helical

@@ -1,0 +1,188 @@
+#include "engine/flight/autopilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/rotation.h"
+
+namespace helical {
+namespace {
+
+constexpr double kSpinUpThrottle = 0.75;   // of hover trim
+constexpr double kSpinUpTime = 1.2;        // s
+constexpr double kThrottleRamp = 0.25;     // hover trims per second until it lifts off
+constexpr double kHighestThrottle = 1.6;   // hover trims: a helicopter that does not lift by then never will
+constexpr double kAirborneHeight = 0.025;  // m above the pad
+constexpr double kIntegrateHeight =
+    0.05;  // m: nearer the ground the skids hold it, integrators would wind up
+constexpr double kTouchdownHeight = 0.03;      // m
+constexpr double kTouchdownReference = -0.02;  // m: the reference is under the ground by then
+constexpr double kSpinDownRate = 0.5;          // rotor fraction per second
+constexpr double kSettleTime = 1.0;            // s on the ground, after which the rotors may stop at once
+constexpr double kFadeTime = 0.15;             // s: feedback without a pose, to trim
+constexpr double kOldPad = 0.05;               // s: a fresher pose measures the pad's height
+
+}  // namespace
+
+Autopilot::Autopilot(const FlightPlan& plan, const ControllerOptions& control,
+                     const SupervisorOptions& safety, const HelicopterParameters& nominal)
+    : plan_(plan),
+      control_(control),
+      safety_options_(safety),
+      controller_(control, nominal),
+      follower_(plan),
+      pad_height_(nominal.standing_height) {}
+
+double Autopilot::flightTime(TimeNs now) const {
+  return phase_ == FlightPhase::kIdle ? 0.0 : toSeconds(now - started_);
+}
+
+void Autopilot::enter(FlightPhase phase, TimeNs now) {
+  phase_ = phase;
+  phase_since_ = now;
+}
+
+AutopilotOutput Autopilot::step(const AutopilotInput& input) {
+  const Eigen::Vector3d& position = input.state.world_from_body.translation;
+  const double height = position.z() - pad_height_;
+  take_off_pending_ |= input.commands.take_off;
+
+  SupervisorConditions conditions;
+  conditions.now = input.now;
+  conditions.phase = phase_;
+  conditions.pose_age_s = input.pose_age_s;
+  conditions.tilt = tiltOf(input.state.world_from_body.rotation);
+  conditions.distance_from_pad = position.head<2>().norm();
+  conditions.height_above_pad = height;
+  conditions.flight_time_s = flightTime(input.now);
+  conditions.lift_off_failed = phase_ == FlightPhase::kLiftOff && throttle_ > kHighestThrottle;
+  conditions.kill = input.commands.kill;
+  supervisor_ = supervise(safety_options_, supervisor_, conditions);
+
+  AutopilotOutput output;
+  if (supervisor_.state == SafetyState::kCut) {
+    if (phase_ != FlightPhase::kIdle) enter(FlightPhase::kOff, input.now);
+  } else {
+    advance(input, height);
+    output.sticks = act(input, height);
+  }
+  output.phase = phase_;
+  output.safety = supervisor_.state;
+  output.failsafes = supervisor_.failsafes;
+  output.set_point = follower_.setPoint();
+  output.pad_height = pad_height_;
+  output.airborne = phase_ == FlightPhase::kFlying || phase_ == FlightPhase::kLanding;
+  output.hovering = phase_ == FlightPhase::kFlying && follower_.atFirstWaypoint();
+  return output;
+}
+
+void Autopilot::advance(const AutopilotInput& input, double height) {
+  const double in_phase = toSeconds(input.now - phase_since_);
+  const double vertical_speed = input.state.velocity_in_world.z();
+  switch (phase_) {
+    case FlightPhase::kIdle:
+      if (!input.pose_known || input.pose_age_s > kOldPad) return;
+      pad_height_ = input.state.world_from_body.translation.z();
+      if (!take_off_pending_) return;
+      take_off_pending_ = false;
+      started_ = input.now;
+      controller_.reset();
+      throttle_ = 0.0;
+      rotors_off_ = false;
+      enter(FlightPhase::kSpinUp, input.now);
+      return;
+    case FlightPhase::kSpinUp:
+      if (input.commands.land)
+        enter(FlightPhase::kTouchdown, input.now);
+      else if (throttle_ >= kSpinUpThrottle)
+        enter(FlightPhase::kLiftOff, input.now);
+      return;
+    case FlightPhase::kLiftOff:
+      if (input.commands.land) {
+        enter(FlightPhase::kTouchdown, input.now);
+      } else if (height > kAirborneHeight) {
+        controller_.liftOff(throttle_);
+        SetPoint here;
+        here.position_in_world = input.state.world_from_body.translation;
+        here.yaw = yawOf(input.state.world_from_body.rotation);
+        follower_.start(here, pad_height_);
+        enter(FlightPhase::kFlying, input.now);
+      }
+      return;
+    case FlightPhase::kFlying: {
+      const bool time_to_land = plan_.land_at_s > 0.0 && flightTime(input.now) >= plan_.land_at_s;
+      const bool ordered = input.commands.land || supervisor_.state == SafetyState::kLandNow;
+      if (ordered) follower_.resetTo(input.state.world_from_body.translation);
+      if (time_to_land || ordered || (plan_.land_at_s <= 0.0 && follower_.finished()))
+        enter(FlightPhase::kLanding, input.now);
+      return;
+    }
+    case FlightPhase::kLanding:
+      if (height < kTouchdownHeight && vertical_speed > -0.15 &&
+          follower_.setPoint().position_in_world.z() - pad_height_ < kTouchdownReference)
+        enter(FlightPhase::kTouchdown, input.now);
+      return;
+    case FlightPhase::kTouchdown:
+      if (rotors_off_ || (height < 0.005 && in_phase > kSettleTime)) enter(FlightPhase::kOff, input.now);
+      return;
+    case FlightPhase::kOff:
+      return;
+  }
+}
+
+StickDemand Autopilot::act(const AutopilotInput& input, double height) {
+  const double dt = 1.0 / control_.rate_hz;
+  switch (phase_) {
+    case FlightPhase::kIdle:
+    case FlightPhase::kOff:
+      return {};
+    case FlightPhase::kSpinUp:
+      throttle_ = std::min(kSpinUpThrottle, throttle_ + kSpinUpThrottle / kSpinUpTime * dt);
+      return controller_.onGround(input.state, throttle_, dt);
+    case FlightPhase::kLiftOff:
+      throttle_ += kThrottleRamp * dt;
+      return controller_.onGround(input.state, throttle_, dt);
+    case FlightPhase::kFlying:
+    case FlightPhase::kLanding: {
+      const bool blind = input.pose_age_s > safety_options_.coast_after_s;
+      if (was_blind_ && !blind && input.pose_age_s <= safety_options_.coast_after_s)
+        follower_.resetTo(input.state.world_from_body.translation);
+      was_blind_ = blind;
+      return blind ? flyBlind(input) : flySighted(input, height);
+    }
+    case FlightPhase::kTouchdown: {
+      StickDemand sticks;
+      rotors_off_ = controller_.spinDown(kSpinDownRate, dt, sticks);
+      return sticks;
+    }
+  }
+  return {};
+}
+
+StickDemand Autopilot::flySighted(const AutopilotInput& input, double height) {
+  const double dt = 1.0 / control_.rate_hz;
+  follower_.step(dt, input.state.world_from_body.translation, phase_ == FlightPhase::kLanding);
+  Controller::FlyOptions options;
+  options.integrate_position = height > kIntegrateHeight;
+  bool spinning = false;
+  const StickDemand sticks = controller_.fly(input.state, follower_.setPoint(), options, dt, &spinning);
+  if (spinning) follower_.setYaw(yawOf(input.state.world_from_body.rotation));
+  return sticks;
+}
+
+StickDemand Autopilot::flyBlind(const AutopilotInput& input) {
+  // The model knows the next tenth of a second; feedback on a longer prediction is worse than none.
+  Controller::FlyOptions options;
+  options.integrate_position = false;
+  options.feedback =
+      std::min(0.999, std::exp(-(input.pose_age_s - safety_options_.coast_after_s) / kFadeTime));
+  if (supervisor_.state == SafetyState::kDescending) {
+    // Open loop: sink to the descent speed in half a second, then hold it against the rotors' damping.
+    const double blind_descent = toSeconds(input.now - supervisor_.descending_since);
+    options.extra_thrust = blind_descent < 0.5 ? -0.022 : -0.006;
+  }
+  bool spinning = false;
+  return controller_.fly(input.state, follower_.setPoint(), options, 1.0 / control_.rate_hz, &spinning);
+}
+
+}  // namespace helical

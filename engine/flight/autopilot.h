@@ -1,0 +1,72 @@
+#pragma once
+
+#include "engine/flight/controller.h"
+#include "engine/flight/flight_plan.h"
+#include "engine/flight/flight_state.h"
+#include "engine/flight/plan_follower.h"
+#include "engine/flight/supervisor.h"
+
+namespace helical {
+
+/// What the operator asked for since the last tick.
+struct OperatorCommands {
+  bool take_off = false;
+  bool land = false;
+  bool kill = false;
+};
+
+struct AutopilotInput {
+  TimeNs now = 0;
+  bool pose_known = false;  ///< a pose was found at least once
+  double pose_age_s = 0.0;  ///< since the last observation that was used
+  HelicopterState state;    ///< predicted to when the sticks will act
+  OperatorCommands commands;
+};
+
+struct AutopilotOutput {
+  StickDemand sticks;
+  FlightPhase phase = FlightPhase::kIdle;
+  SafetyState safety = SafetyState::kNormal;
+  std::uint32_t failsafes = 0;
+  SetPoint set_point;
+  double pad_height = 0.0;  ///< of the body's origin standing on the pad, as seen before the start [m]
+  bool hovering = false;    ///< has reached the first waypoint and is not landing
+  bool airborne = false;
+};
+
+/// The flight procedure: rotors up, lift-off, plan, landing, rotors off; the supervisor stands before the
+/// controller (it changes what is flown) and after it (it cuts). Called once per control tick; one thread,
+/// allocates nothing.
+class Autopilot {
+ public:
+  Autopilot(const FlightPlan& plan, const ControllerOptions& control, const SupervisorOptions& safety,
+            const HelicopterParameters& nominal);
+
+  AutopilotOutput step(const AutopilotInput& input);
+
+ private:
+  void advance(const AutopilotInput& input, double height);
+  StickDemand act(const AutopilotInput& input, double height);
+  StickDemand flyBlind(const AutopilotInput& input);
+  StickDemand flySighted(const AutopilotInput& input, double height);
+  void enter(FlightPhase phase, TimeNs now);
+  double flightTime(TimeNs now) const;
+
+  FlightPlan plan_;
+  ControllerOptions control_;
+  SupervisorOptions safety_options_;
+  Controller controller_;
+  PlanFollower follower_;
+  SupervisorMemory supervisor_;
+
+  FlightPhase phase_ = FlightPhase::kIdle;
+  TimeNs phase_since_ = 0;
+  TimeNs started_ = 0;
+  double throttle_ = 0.0;  ///< in hover trims, while on the ground
+  double pad_height_ = 0.0;
+  bool was_blind_ = false;
+  bool rotors_off_ = false;
+  bool take_off_pending_ = false;
+};
+
+}  // namespace helical

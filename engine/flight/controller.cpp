@@ -1,0 +1,134 @@
+#include "engine/flight/controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/rotation.h"
+
+namespace helical {
+namespace {
+
+constexpr double kYawIntegralLimit = 0.4;
+constexpr double kHeightIntegralLimit = 0.35;
+constexpr double kSpinRate = 1.2;  // rad/s, beyond which no heading is followed
+constexpr double kLowestThrust = -0.2, kHighestThrust = 0.3;
+
+}  // namespace
+
+Controller::Controller(const ControllerOptions& options, const HelicopterParameters& nominal)
+    : options_(options),
+      trim_upper_(nominal.hoverStickUpper()),
+      trim_lower_(nominal.hoverStickLower()),
+      upper_time_(nominal.upper.motor_time),
+      lower_time_(nominal.lower.motor_time) {
+  const double upper = nominal.hoverSpeedUpper() * nominal.upper.motor_gain;
+  const double lower = nominal.hoverSpeedLower() * nominal.lower.motor_gain;
+  const double torque_upper = nominal.upper.drag_coefficient * upper;
+  const double torque_lower = nominal.lower.drag_coefficient * lower;
+  thrust_upper_ = 2.0 * torque_lower / (torque_upper + torque_lower);
+  thrust_lower_ = 2.0 * torque_upper / (torque_upper + torque_lower);
+  const double lift_upper = nominal.upper.thrust_coefficient * upper;
+  const double lift_lower = nominal.lower.thrust_coefficient * lower;
+  yaw_upper_ = 2.0 * lift_lower / (lift_upper + lift_lower);
+  yaw_lower_ = 2.0 * lift_upper / (lift_upper + lift_lower);
+}
+
+void Controller::reset() {
+  base_ = thrust_ = height_integral_ = yaw_integral_ = 0.0;
+  position_integral_.setZero();
+  lag_known_ = false;
+}
+
+StickDemand Controller::onGround(const HelicopterState& state, double throttle, double dt) {
+  base_ = throttle;
+  const double yaw_rate = state.angular_velocity_in_body.z();
+  yaw_integral_ =
+      std::clamp(yaw_integral_ - options_.spin_i * yaw_rate * dt, -kYawIntegralLimit, kYawIntegralLimit);
+  const Eigen::Matrix2d heading =
+      Eigen::Rotation2Dd(-yawOf(state.world_from_body.rotation)).toRotationMatrix();
+  const Eigen::Vector2d tilt =
+      heading * (state.world_from_body.rotation * Eigen::Vector3d::UnitZ()).head<2>();
+  const Eigen::Vector2d velocity = heading * state.velocity_in_world.head<2>();
+  const Eigen::Vector2d swash = -0.5 * options_.tilt * tilt - 0.5 * options_.position_d * velocity;
+  return mix(0.0, yaw_integral_ - options_.yaw_d * yaw_rate, swash, false, dt);
+}
+
+void Controller::liftOff(double throttle) {
+  base_ = throttle;
+  thrust_ = height_integral_ = 0.0;
+}
+
+StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_point, const FlyOptions& fly,
+                            double dt, bool* spinning) {
+  const bool sighted = fly.feedback >= 1.0;
+  const double yaw = yawOf(state.world_from_body.rotation);
+  const Eigen::Matrix2d heading = Eigen::Rotation2Dd(-yaw).toRotationMatrix();
+
+  const double height_error = set_point.position_in_world.z() - state.world_from_body.translation.z();
+  if (sighted)
+    height_integral_ = std::clamp(height_integral_ + options_.height_i * height_error * dt,
+                                  -kHeightIntegralLimit, kHeightIntegralLimit);
+  const double thrust =
+      std::clamp(options_.height_p * height_error +
+                     options_.height_d * (set_point.velocity_in_world.z() - state.velocity_in_world.z()) +
+                     height_integral_,
+                 kLowestThrust, kHighestThrust);
+  thrust_ = height_integral_ + (thrust - height_integral_) * fly.feedback + fly.extra_thrust;
+
+  const double yaw_rate = state.angular_velocity_in_body.z();
+  *spinning = std::abs(yaw_rate) > kSpinRate;
+  const double yaw_error = *spinning ? 0.0 : wrapAngle(set_point.yaw - yaw);
+  if (sighted) {
+    const double rate = *spinning ? -options_.spin_i * yaw_rate : options_.yaw_i * yaw_error;
+    yaw_integral_ = std::clamp(yaw_integral_ + rate * dt, -kYawIntegralLimit, kYawIntegralLimit);
+  }
+  const double yaw_demand =
+      yaw_integral_ + (options_.yaw_p * yaw_error - options_.yaw_d * yaw_rate) * fly.feedback;
+
+  Eigen::Vector2d error =
+      heading * (set_point.position_in_world - state.world_from_body.translation).head<2>();
+  if (sighted && fly.integrate_position) {
+    position_integral_ += options_.position_i * dt * error;
+    position_integral_ *=
+        std::min(1.0, options_.position_i_limit / std::max(position_integral_.norm(), 1e-9));
+  }
+  error *= std::min(1.0, options_.position_error_limit / std::max(error.norm(), 1e-9));
+  const Eigen::Vector2d drift = heading * (state.velocity_in_world - set_point.velocity_in_world).head<2>();
+  const Eigen::Vector2d tilt =
+      heading * (state.world_from_body.rotation * Eigen::Vector3d::UnitZ()).head<2>();
+  const Eigen::Vector2d feedback =
+      options_.position_p * error - options_.position_d * drift - options_.tilt * tilt;
+  return mix(thrust_, yaw_demand, position_integral_ + feedback * fly.feedback, true, dt);
+}
+
+bool Controller::spinDown(double rate, double dt, StickDemand& demand) {
+  thrust_ -= rate * dt;
+  position_integral_ *= std::exp(-2.0 * dt);
+  demand = mix(thrust_, yaw_integral_, position_integral_, true, dt);
+  return base_ * trim_lower_ + thrust_ < 0.1;
+}
+
+StickDemand Controller::mix(double thrust, double yaw, const Eigen::Vector2d& swash_in_body, bool lead,
+                            double dt) {
+  double upper = thrust * thrust_upper_ - yaw * yaw_upper_;
+  const double lower = thrust * thrust_lower_ + yaw * yaw_lower_;
+  if (lead) {
+    // (T_upper s + 1) / (T_lower s + 1): both rotors then answer as the lower one, and thrust does not turn
+    // it.
+    if (!lag_known_) lag_ = upper;
+    lag_known_ = true;
+    const double keep = std::exp(-dt / lower_time_);
+    lag_ = keep * lag_ + (1.0 - keep) * upper;
+    upper = lag_ + upper_time_ / lower_time_ * (upper - lag_);
+  }
+  const Eigen::Vector2d turned = Eigen::Rotation2Dd(options_.phase) * swash_in_body;
+  const Eigen::Vector2d swash = turned / std::max(1.0, turned.norm());
+  StickDemand demand;
+  demand.upper_rotor = std::clamp(base_ * trim_upper_ + upper, 0.0, 1.0);
+  demand.lower_rotor = std::clamp(base_ * trim_lower_ + lower, 0.0, 1.0);
+  demand.roll = -swash.y();
+  demand.pitch = swash.x();
+  return demand;
+}
+
+}  // namespace helical

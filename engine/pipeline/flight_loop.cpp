@@ -1,0 +1,139 @@
+#include "engine/pipeline/flight_loop.h"
+
+#include "engine/base/clock.h"
+
+namespace helical {
+namespace {
+
+constexpr TimeNs kRateWindow = kNanosecondsPerSecond / 2;
+constexpr int kPercentileTicks = 30;  // percentiles are sorted out twice a second
+
+/// Wall time of this thread's work; the flight's own clock may be simulated.
+const MonotonicClock& stopwatch() {
+  static const MonotonicClock clock;
+  return clock;
+}
+
+std::vector<CameraModel> models(const RigConfig& rig) {
+  std::vector<CameraModel> result;
+  for (const auto& camera : rig.cameras) result.push_back(camera.model);
+  return result;
+}
+
+}  // namespace
+
+FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
+    : rig_(rig),
+      tracker_(rig.tracking, rig.markers_in_body, models(rig), rig.helicopter.standing_height),
+      autopilot_(plan, rig.control, rig.safety, rig.helicopter) {
+  snapshot_.camera_count = static_cast<int>(rig.cameras.size());
+  snapshot_.marker_count = rig.markers_in_body.count();
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraConfig& camera = rig.cameras[i];
+    if (!camera.camera_from_world) continue;
+    estimates_[i].camera_from_world = *camera.camera_from_world;
+    // A pose that the rig file vouches for flies; a first guess waits for its calibration.
+    estimates_[i].status = camera.pose_is_guess ? CameraStatus::kUncalibrated : CameraStatus::kCalibrated;
+  }
+}
+
+void FlightLoop::hideCamera(CameraId camera, bool hidden) {
+  snapshot_.cameras[static_cast<std::size_t>(camera.index())].hidden = hidden;
+}
+
+void FlightLoop::addDropped(CameraId camera, std::uint64_t frames) {
+  snapshot_.cameras[static_cast<std::size_t>(camera.index())].dropped += frames;
+}
+
+void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
+  const TimeNs begin = stopwatch().now();
+  const auto index = static_cast<std::size_t>(observation.camera.index());
+  count(observation, now);
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i)
+    usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !snapshot_.cameras[i].hidden;
+  const std::size_t cameras = rig_.cameras.size();
+  tracker_.update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
+  snapshot_.cameras[index].track = tracker_.track(observation.camera);
+  work_since_tick_ += stopwatch().now() - begin;
+}
+
+void FlightLoop::count(const Observation& observation, TimeNs now) {
+  const auto index = static_cast<std::size_t>(observation.camera.index());
+  CameraSnapshot& camera = snapshot_.cameras[index];
+  CameraCounters& counters = counters_[index];
+  if (counters.seen && observation.sequence > counters.last_sequence + 1)
+    camera.dropped += observation.sequence - counters.last_sequence - 1;
+  if (!counters.seen) counters.window_start = now;
+  counters.seen = true;
+  counters.last_sequence = observation.sequence;
+  counters.unused_arrival = observation.arrival;
+  ++counters.window_frames;
+  ++camera.frames;
+  camera.latency = now - observation.exposure;
+  camera.centroids = observation.count;
+  if (observation.extraction > 0) extraction_time_[index].add(observation.extraction);
+}
+
+const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& commands) {
+  const TimeNs begin = stopwatch().now();
+  AutopilotInput input;
+  input.now = now;
+  input.pose_known = tracker_.acquired();
+  input.pose_age_s = toSeconds(now - tracker_.lastUpdate());
+  input.state = tracker_.predict(now + fromSeconds(rig_.control.output_delay_s), airborne_).state;
+  input.commands = commands;
+  const AutopilotOutput output = autopilot_.step(input);
+  airborne_ = output.airborne;
+  fillSnapshot(now, output);
+
+  server_time_.add(work_since_tick_ + stopwatch().now() - begin);
+  work_since_tick_ = 0;
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    if (counters_[i].unused_arrival >= 0) frame_to_command_.add(now - counters_[i].unused_arrival);
+    counters_[i].unused_arrival = -1;
+  }
+  measureRates(now);
+  return snapshot_.sticks;
+}
+
+void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
+  const double age = toSeconds(now - tracker_.lastUpdate());
+  if (snapshot_.phase == FlightPhase::kIdle && output.phase != FlightPhase::kIdle) started_ = now;
+  if (output.phase != FlightPhase::kOff && started_ >= 0) snapshot_.flight_time_s = toSeconds(now - started_);
+  snapshot_.time = now;
+  ++snapshot_.tick;
+  snapshot_.pose_known = tracker_.acquired() && age <= rig_.safety.coast_after_s;
+  snapshot_.pose_age = now - tracker_.lastUpdate();
+  snapshot_.phase = output.phase;
+  snapshot_.safety = output.safety;
+  snapshot_.failsafes = output.failsafes;
+  snapshot_.tracked = tracker_.predict(now, airborne_);
+  snapshot_.set_point = output.set_point;
+  snapshot_.hovering = output.hovering;
+  snapshot_.pad_height = output.pad_height;
+  snapshot_.sticks = output.sticks;
+  snapshot_.ticks_per_second = rig_.control.rate_hz;
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) snapshot_.cameras[i].estimate = estimates_[i];
+}
+
+void FlightLoop::measureRates(TimeNs now) {
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    CameraCounters& counters = counters_[i];
+    const TimeNs elapsed = now - counters.window_start;
+    if (!counters.seen || elapsed < kRateWindow) continue;
+    snapshot_.cameras[i].frames_per_second = static_cast<double>(counters.window_frames) / toSeconds(elapsed);
+    counters.window_start = now;
+    counters.window_frames = 0;
+  }
+  if (snapshot_.tick % kPercentileTicks != 0) return;
+  snapshot_.server_p50 = server_time_.percentile(0.50);
+  snapshot_.server_p99 = server_time_.percentile(0.99);
+  snapshot_.frame_to_command_p50 = frame_to_command_.percentile(0.50);
+  snapshot_.frame_to_command_p99 = frame_to_command_.percentile(0.99);
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    snapshot_.cameras[i].extraction_p50 = extraction_time_[i].percentile(0.50);
+    snapshot_.cameras[i].extraction_p99 = extraction_time_[i].percentile(0.99);
+  }
+}
+
+}  // namespace helical

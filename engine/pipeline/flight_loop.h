@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+
+#include "engine/base/latency_histogram.h"
+#include "engine/config/rig_config.h"
+#include "engine/flight/autopilot.h"
+#include "engine/pipeline/snapshot.h"
+#include "engine/tracking/tracker.h"
+
+namespace helical {
+
+/// The server of the paper's figure 3: observations in, stick positions out. Owns tracker and autopilot;
+/// knows nothing of threads, devices or images, so that real time, lock step and replay run the same code.
+/// One thread; allocates nothing after construction.
+class FlightLoop {
+ public:
+  FlightLoop(const RigConfig& rig, const FlightPlan& plan);
+
+  /// One camera's observation, at its use. Any order of cameras; a camera's own in order.
+  void onObservation(const Observation& observation, TimeNs now);
+
+  /// One control tick: the sticks to send now.
+  const StickDemand& onTick(TimeNs now, const OperatorCommands& commands);
+
+  /// The operator hides a camera: its observations count as frames, but nothing they show is used.
+  void hideCamera(CameraId camera, bool hidden);
+  /// Frames that were lost before they came here.
+  void addDropped(CameraId camera, std::uint64_t frames);
+
+  /// State after the last tick.
+  const EngineSnapshot& snapshot() const { return snapshot_; }
+
+ private:
+  struct CameraCounters {
+    bool seen = false;
+    std::uint64_t last_sequence = 0;
+    TimeNs window_start = 0;
+    std::uint64_t window_frames = 0;
+    TimeNs unused_arrival = -1;  ///< of the newest frame that no command has used yet
+  };
+  void count(const Observation& observation, TimeNs now);
+  void measureRates(TimeNs now);
+  void fillSnapshot(TimeNs now, const AutopilotOutput& output);
+
+  RigConfig rig_;
+  Tracker tracker_;
+  Autopilot autopilot_;
+  EngineSnapshot snapshot_;
+  std::array<CameraEstimate, kMaxCameras> estimates_;
+  std::array<bool, kMaxCameras> usable_{};
+  std::array<CameraCounters, kMaxCameras> counters_;
+  std::array<LatencyHistogram, kMaxCameras> extraction_time_;
+  LatencyHistogram server_time_;
+  LatencyHistogram frame_to_command_;
+  TimeNs work_since_tick_ = 0;
+  bool airborne_ = false;
+  TimeNs started_ = -1;
+};
+
+}  // namespace helical

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <atomic>
+
+#include "engine/base/latest_value.h"
+#include "engine/base/time.h"
+#include "engine/transmitter/transmitter.h"
+
+namespace helical {
+
+/// Stands between the flight thread and the transmitter, on a clock of its own. Sends the newest demand; when
+/// the flight thread falls silent it goes neutral, then ramps the rotors down, and does not start them again.
+/// Kill bypasses the queue: it acts at the next `step`, whatever the flight thread does.
+class OutputLoop {
+ public:
+  explicit OutputLoop(Transmitter& transmitter) : transmitter_(transmitter) {}
+
+  /// Flight thread.
+  void submit(const StickDemand& demand, TimeNs now);
+  /// Any thread. Latched.
+  void kill() { killed_.store(true, std::memory_order_release); }
+  bool killed() const { return killed_.load(std::memory_order_acquire); }
+  /// Output thread: sends what the helicopter should get now.
+  void step(TimeNs now);
+
+ private:
+  struct Stamped {
+    StickDemand demand;
+    TimeNs time = 0;
+  };
+  StickDemand neutralRamp(TimeNs silent_for) const;
+
+  Transmitter& transmitter_;
+  LatestValue<Stamped> newest_;
+  std::atomic<bool> killed_{false};
+  bool given_up_ = false;
+};
+
+}  // namespace helical

@@ -1,0 +1,47 @@
+#include "engine/pipeline/rig_hardware.h"
+
+#include "engine/base/error.h"
+#include "engine/simulator/simulated_camera.h"
+#include "engine/simulator/simulated_observer.h"
+#include "engine/simulator/simulated_transmitter.h"
+
+namespace helical {
+namespace {
+
+RigidTransform truePose(const RigConfig& rig, std::size_t index) {
+  const auto& truths = rig.simulation.true_camera_from_world;
+  if (index < truths.size() && truths[index]) return *truths[index];
+  const CameraConfig& camera = rig.cameras[index];
+  if (camera.camera_from_world) return *camera.camera_from_world;
+  throw Error(ErrorKind::kInput, "simulated camera " + camera.label + " has no place in the world", rig.path,
+              "give it a [camera.pose], or its true pose in [[simulation.camera]]");
+}
+
+}  // namespace
+
+RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
+                    const ExtractingSource::FrameTap& tap) {
+  RigHardware hardware;
+  hardware.world = std::make_shared<World>(rig.simulation, rig.helicopter);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraConfig& camera = rig.cameras[i];
+    if (camera.source != "sim")
+      throw Error(ErrorKind::kInput, "camera " + camera.label + " has no source to fly with", rig.path,
+                  "give it source = \"sim\"");
+    const CameraId id = cameraId(static_cast<int>(i));
+    if (rig.simulation.images) {
+      auto source = std::make_unique<SimulatedCamera>(id, camera.model, truePose(rig, i), rig.markers_in_body,
+                                                      rig.simulation, hardware.world, clock);
+      hardware.sources.push_back(
+          std::make_unique<ExtractingSource>(std::move(source), rig.marker_options, tap));
+    } else {
+      hardware.sources.push_back(std::make_unique<SimulatedObserver>(id, camera.model, truePose(rig, i),
+                                                                     rig.markers_in_body, rig.marker_options,
+                                                                     rig.simulation, hardware.world, clock));
+    }
+  }
+  hardware.transmitter = std::make_unique<SimulatedTransmitter>(rig.simulation, hardware.world);
+  return hardware;
+}
+
+}  // namespace helical

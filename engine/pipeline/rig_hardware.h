@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/base/clock.h"
+#include "engine/config/rig_config.h"
+#include "engine/markers/extracting_source.h"
+#include "engine/simulator/world.h"
+#include "engine/transmitter/transmitter.h"
+
+namespace helical {
+
+/// What a rig file names, opened: one source per camera in the rig's order, and the transmitter. Real or
+/// simulated; who uses it cannot tell, but for `world`, which only simulated rigs have and which serves
+/// display and scoring alone.
+struct RigHardware {
+  std::vector<std::unique_ptr<ObservationSource>> sources;
+  std::unique_ptr<Transmitter> transmitter;
+  std::shared_ptr<World> world;
+};
+
+/// Opens every device of the rig. `tap` sees the frames of cameras that have images, on their capture
+/// threads. Throws Error(kDevice) for what cannot be opened.
+RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
+                    const ExtractingSource::FrameTap& tap = {});
+
+}  // namespace helical

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "engine/base/random.h"
+#include "engine/base/time.h"
+#include "engine/helicopter/dynamics.h"
+#include "engine/simulator/simulation_options.h"
+#include "engine/simulator/verdict.h"
+
+namespace helical {
+
+/// The helicopter at one time, as it really is.
+struct WorldSample {
+  HelicopterState state;
+  double upper_rotor_angle = 0.0;  ///< rad
+  double lower_rotor_angle = 0.0;  ///< rad
+};
+
+/// The simulated field: one helicopter with drawn parameters, gusts, and the stick positions on their way to
+/// it, at 1 kHz. Until `field_empty_s` the field is empty; then the helicopter stands on the pad. Any thread
+/// (one lock); samples can be taken up to 0.25 s back.
+class World {
+ public:
+  World(const SimulationOptions& options, const HelicopterParameters& nominal);
+
+  /// Simulates up to `time`; does nothing if that is past.
+  void advanceTo(TimeNs time);
+
+  /// The helicopter at `time`, interpolated; nothing while the field is empty. `time` is not later than the
+  /// last advance.
+  std::optional<WorldSample> at(TimeNs time) const;
+
+  /// Sticks that take effect at `when`.
+  void command(const StickDemand& demand, TimeNs when);
+
+  Verdict verdict() const;
+  const HelicopterParameters& parameters() const { return dynamics_.parameters(); }
+
+ private:
+  struct Command {
+    TimeNs when;
+    StickDemand demand;
+  };
+  void stepOnce();
+  void blow(double dt);
+  void judge();
+
+  mutable std::mutex mutex_;
+  SimulationOptions options_;
+  Random random_;
+  Dynamics dynamics_;
+  Gust gust_;
+  std::deque<Command> commands_;
+  StickDemand sticks_;
+  std::int64_t step_ = 0;
+  std::int64_t placed_at_step_;
+  double upper_angle_ = 0.0;
+  double lower_angle_ = 0.0;
+  std::vector<WorldSample> history_;  // ring, by step
+  Verdict verdict_;
+};
+
+}  // namespace helical

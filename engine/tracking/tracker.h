@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/correspondence/prediction_naming.h"
+#include "engine/geometry/camera_estimate.h"
+#include "engine/geometry/camera_model.h"
+#include "engine/helicopter/marker_layout.h"
+#include "engine/markers/observation.h"
+#include "engine/tracking/acquisition.h"
+#include "engine/tracking/motion_model.h"
+#include "engine/tracking/track.h"
+
+namespace helical {
+
+/// Helicopter pose and velocity from the named centroids of every usable camera, each at its own exposure
+/// time: an extended Kalman filter on pixels (position, velocity, attitude, body rates), tightly coupled, so
+/// that any number of markers in any number of cameras counts, down to a few in one. Features are selected as
+/// follows: predict the pose and project the balls; gate by Mahalanobis distance; drop the worst until the
+/// rest pass a joint test; let a rejected feature back in after it has agreed twice; coast on the motion
+/// model when none is left. A gap longer than `reacquire_after_s` ends in a new acquisition. Allocates
+/// nothing after construction. One thread.
+class Tracker {
+ public:
+  Tracker(const TrackerOptions& options, const MarkerLayout& markers, std::vector<CameraModel> cameras,
+          double standing_height);
+
+  /// Takes in what one camera saw. Cameras that are not `usable` are not looked at. Observations may come in
+  /// any order within some 10 ms.
+  void update(const Observation& observation, std::span<const CameraEstimate> cameras,
+              std::span<const bool> usable, bool airborne);
+
+  /// Whether a pose was ever found.
+  bool acquired() const { return acquired_; }
+  /// Exposure time of the last observation that was used.
+  TimeNs lastUpdate() const { return last_update_; }
+  /// State and covariance at `time`, by the motion model.
+  TrackedState predict(TimeNs time, bool airborne) const;
+  /// What was made of the newest observation of a camera.
+  const CameraTrack& track(CameraId camera) const {
+    return tracks_[static_cast<std::size_t>(camera.index())];
+  }
+
+ private:
+  using Jacobian = Eigen::Matrix<double, 2, 6>;  // of a pixel to (position, rotation vector)
+  struct Feature {
+    MarkerPrediction prediction;
+    Jacobian d_pose = Jacobian::Zero();
+    Jacobian d_camera = Jacobian::Zero();
+    Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
+    bool selected = false;
+  };
+  using Features = std::array<Feature, kMaxMarkers>;
+
+  void acquire(const Observation& observation, std::span<const CameraEstimate> cameras,
+               std::span<const bool> usable, bool airborne);
+  void restart(const PoseFit& fit, TimeNs time);
+  void predictFeatures(const Observation& observation, const CameraEstimate& estimate,
+                       Features& features) const;
+  void nameFeatures(const Observation& observation, Features& features, CameraTrack& track) const;
+  void select(CameraId camera, const CameraEstimate& estimate, Features& features);
+  /// Kalman update with the selected features; false if it would not be finite.
+  bool correct(const CameraEstimate& estimate, const Features& features);
+  void report(const Observation& observation, const CameraEstimate& estimate, const Features& features,
+              CameraTrack& track) const;
+
+  TrackerOptions options_;
+  MarkerLayout markers_;
+  std::vector<CameraModel> cameras_;
+  double standing_height_;
+  MotionModel model_;
+  Acquisition acquisition_;
+
+  bool acquired_ = false;
+  TimeNs time_ = 0;
+  TimeNs last_update_ = 0;
+  HelicopterState state_;
+  Matrix12d covariance_ = Matrix12d::Identity();
+  HelicopterState last_good_;
+  int fruitless_ = 0;  ///< observations in a row that showed markers of which none fitted
+  std::array<std::array<std::uint8_t, kMaxMarkers>, kMaxCameras> probation_{};
+  std::array<CameraTrack, kMaxCameras> tracks_{};
+};
+
+}  // namespace helical

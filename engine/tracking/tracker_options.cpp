@@ -1,0 +1,28 @@
+#include "engine/tracking/tracker_options.h"
+
+#include <string>
+
+#include "engine/base/error.h"
+
+namespace helical {
+namespace {
+
+void requirePositive(double value, const char* key) {
+  if (!(value > 0.0))
+    throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
+                "give a number above 0");
+}
+
+}  // namespace
+
+void validate(const TrackerOptions& options) {
+  requirePositive(options.acceleration_noise_lateral, "acceleration_noise_lateral");
+  requirePositive(options.acceleration_noise_vertical, "acceleration_noise_vertical");
+  requirePositive(options.spin_noise_tilt, "spin_noise_tilt");
+  requirePositive(options.spin_noise_yaw, "spin_noise_yaw");
+  requirePositive(options.spin_decay_s, "spin_decay_s");
+  requirePositive(options.gate_chi2, "gate_chi2");
+  requirePositive(options.reacquire_after_s, "reacquire_after_s");
+}
+
+}  // namespace helical

@@ -87,7 +87,9 @@ void SceneBackground::copyTo(std::uint8_t* bgr, double gain, SceneNoise& noise) 
     next_row_ = 0;
     next_copy_ = (next_copy_ + 1) % kCopies;
   }
-  const auto& source = noisy_[random_.bits() % kCopies];
+  // Never the same picture twice in a row.
+  shown_ = (shown_ + 1 + static_cast<int>(random_.bits() % (kCopies - 1))) % kCopies;
+  const auto& source = noisy_[static_cast<std::size_t>(shown_)];
   std::copy(source.begin(), source.end(), bgr);
 }
 

@@ -41,6 +41,7 @@ class SceneBackground {
   std::vector<std::uint16_t> clean_;   ///< without noise, 1/64 grey levels
   std::vector<std::uint8_t> is_floor_;
   std::vector<std::vector<std::uint8_t>> noisy_;
+  int shown_ = 0;
   int next_copy_ = 0;
   int next_row_ = 0;
 };

@@ -62,9 +62,9 @@ void SceneHelicopter::addBody() {
   addRod({-0.06, 0, 0.012}, {-0.225, 0, 0.024}, 0.0045, kCarbon);
   addRod({-0.215, 0, -0.005}, {-0.232, 0, 0.066}, 0.0065, kOrange);
   addRod({-0.190, -0.045, 0.021}, {-0.190, 0.045, 0.021}, 0.0045, kOrange);
-  addRod({0, 0, 0.03}, {0, 0, 0.178}, 0.0045, kSilver);
-  addEllipsoid({0, 0, kLowerRotorHeight}, {0.014, 0.014, 0.007}, kBlack);
-  addEllipsoid({0, 0, kUpperRotorHeight}, {0.012, 0.012, 0.007}, kBlack);
+  addRod({0, 0, 0.03}, {0, 0, 0.178}, 0.0016, kSilver);
+  addEllipsoid({0, 0, kLowerRotorHeight}, {0.008, 0.008, 0.004}, kBlack);
+  addEllipsoid({0, 0, kUpperRotorHeight}, {0.007, 0.007, 0.004}, kBlack);
   for (const double side : {-1.0, 1.0}) {
     addRod({-0.075, 0.048 * side, -0.057}, {0.085, 0.048 * side, -0.057}, 0.003, kBlack);
     addRod({0.085, 0.048 * side, -0.057}, {0.103, 0.048 * side, -0.047}, 0.003, kBlack);
@@ -75,7 +75,9 @@ void SceneHelicopter::addBody() {
 
 void SceneHelicopter::addMarkers() {
   for (const Vector3d& marker : markers_.all()) {
-    addRod({0.1 * marker.x(), 0.1 * marker.y(), -0.03}, marker, 0.0025, kSilver);
+    // The rod holds the ball from below, where it hides nothing of it from the cameras above.
+    const Vector3d foot = marker - Vector3d(0, 0, 0.85 * markers_.radius());
+    addRod({0.1 * marker.x(), 0.1 * marker.y(), -0.03}, foot, 0.0018, kSilver);
     addEllipsoid(marker, Vector3d::Constant(markers_.radius()), kBallGreen);
   }
 }

@@ -43,7 +43,7 @@ void setOpaque(SampleStrip::Sample& sample, double depth, const Vector3f& bgr) {
 }
 
 float lit(double facing) {
-  return 0.44F + 0.62F * static_cast<float>(std::max(0.0, facing));
+  return 0.50F + 0.58F * static_cast<float>(std::max(0.0, facing));
 }
 
 /// Cabin glass, a stripe along the side, white for the rest; `p` is on the unit sphere, x forward and z up.

@@ -1,0 +1,67 @@
+#include "app/window.h"
+
+#include <QApplication>
+#include <cstdio>
+#include <future>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/pipeline/engine.h"
+#include "ui/main_window.h"
+#include "ui/theme.h"
+
+namespace helical {
+namespace {
+
+void requireDisplay() {
+  // Qt would abort the process instead of telling us.
+  if (!qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
+      qEnvironmentVariableIsSet("QT_QPA_PLATFORM"))
+    return;
+  throw Error(ErrorKind::kSystem, "no display to open the window on", "DISPLAY is not set",
+              "fly without a window: helical fly; or give it a virtual display: xvfb-run -a helical");
+}
+
+/// Debian's VTK knows GLX only. What the user has set stays.
+void preferGlx() {
+  if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "xcb");
+  if (!qEnvironmentVariableIsSet("QT_XCB_GL_INTEGRATION")) qputenv("QT_XCB_GL_INTEGRATION", "xcb_glx");
+}
+
+void printFirstImage(qint64 since_process_start) {
+  if (qEnvironmentVariableIntValue("HELICAL_PRINT_STARTUP") == 0) return;
+  std::fprintf(stderr, "first image after %lld ms\n",
+               static_cast<long long>(since_process_start / kNanosecondsPerMillisecond));
+}
+
+}  // namespace
+
+int runWindow(int argc, char** argv, const RigConfig& rig, const FlightPlan& plan, bool auto_take_off) {
+  requireDisplay();
+  preferGlx();
+  // The engine prepares its sources while Qt opens the display.
+  auto starting = std::async(std::launch::async, [&rig, &plan] {
+    auto engine = std::make_unique<Engine>(rig, plan);
+    engine->start();
+    return engine;
+  });
+  QApplication application(argc, argv);
+  QApplication::setApplicationName(QStringLiteral("helical"));
+  QApplication::setApplicationDisplayName(QStringLiteral("Helical Ground Control"));
+  theme::apply(application);
+
+  WindowOptions options;
+  options.auto_take_off = auto_take_off;
+  MainWindow window(rig, options);
+  QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);
+  window.fitToScreen();
+  window.show();
+  const std::unique_ptr<Engine> engine = starting.get();
+  window.attach(*engine);
+  const int exit_code = QApplication::exec();
+  window.detach();
+  engine->stop();
+  return exit_code;
+}
+
+}  // namespace helical

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/config/rig_config.h"
+#include "engine/flight/flight_plan.h"
+
+namespace helical {
+
+/// Opens the ground-control window on this rig and returns its exit code when it is closed. With
+/// `auto_take_off` the plan begins as soon as the pose is known. Throws Error(kSystem) where there is no
+/// display, and what the engine throws when it cannot start. HELICAL_PRINT_STARTUP=1 prints the time to the
+/// first picture on stderr.
+int runWindow(int argc, char** argv, const RigConfig& rig, const FlightPlan& plan, bool auto_take_off);
+
+}  // namespace helical

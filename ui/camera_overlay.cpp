@@ -1,0 +1,93 @@
+#include "ui/camera_overlay.h"
+
+#include <QPainter>
+#include <algorithm>
+
+#include "ui/theme.h"
+
+namespace helical {
+namespace {
+
+constexpr double kSmallestRing = 7.0;
+
+/// Screen position of an image point: pixel (0, 0) is the centre of the first pixel.
+QPointF toScreen(const Eigen::Vector2d& pixel, double scale) {
+  return {(pixel.x() + 0.5) * scale, (pixel.y() + 0.5) * scale};
+}
+
+const Centroid* centroidAt(const Observation* observation, const Eigen::Vector2d& pixel) {
+  if (observation == nullptr) return nullptr;
+  const Centroid* best = nullptr;
+  double nearest = 3.0;
+  for (int i = 0; i < observation->count; ++i) {
+    const Centroid& centroid = observation->centroids[static_cast<std::size_t>(i)];
+    const double distance = (centroid.pixel - pixel).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      best = &centroid;
+    }
+  }
+  return best;
+}
+
+void paintRing(QPainter& painter, const QPointF& center, double radius, const QColor& color) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(color, 1.5));
+  painter.drawEllipse(center, radius, radius);
+}
+
+void paintLabel(QPainter& painter, const QPointF& center, double radius, const QString& text,
+                const QColor& color) {
+  painter.setFont(theme::monoFont(7.4, QFont::DemiBold));
+  const int width = painter.fontMetrics().horizontalAdvance(text) + 6;
+  const QRectF frame(center.x() + 0.72 * radius + 1, center.y() - 0.72 * radius - 13, width, 13);
+  painter.fillRect(frame, QColor(8, 12, 16, 170));
+  painter.setPen(color);
+  painter.drawText(frame, Qt::AlignCenter, text);
+}
+
+void paintCross(QPainter& painter, const QPointF& center) {
+  painter.setPen(QPen(QColor(255, 255, 255, 210), 1));
+  painter.drawLine(center - QPointF(4, 0), center + QPointF(4, 0));
+  painter.drawLine(center - QPointF(0, 4), center + QPointF(0, 4));
+}
+
+bool isNamed(const CameraOverlay& overlay, const Eigen::Vector2d& pixel) {
+  if (overlay.track == nullptr) return false;
+  const auto begin = overlay.track->markers.begin();
+  return std::any_of(begin, begin + overlay.marker_count, [&](const MarkerTrack& marker) {
+    return marker.observed && (marker.pixel - pixel).norm() < 3.0;
+  });
+}
+
+void paintUnnamedRegions(QPainter& painter, const CameraOverlay& overlay, double scale) {
+  if (overlay.observation == nullptr) return;
+  QColor color = theme::kCaution;
+  color.setAlpha(190);
+  for (int i = 0; i < overlay.observation->count; ++i) {
+    const Centroid& centroid = overlay.observation->centroids[static_cast<std::size_t>(i)];
+    if (isNamed(overlay, centroid.pixel)) continue;
+    paintRing(painter, toScreen(centroid.pixel, scale), std::max(5.0, centroid.radius_px * scale + 2), color);
+  }
+}
+
+}  // namespace
+
+void paintOverlay(QPainter& painter, const CameraOverlay& overlay, double scale) {
+  painter.setRenderHint(QPainter::Antialiasing);
+  paintUnnamedRegions(painter, overlay, scale);
+  if (overlay.track == nullptr) return;
+  for (int i = 0; i < overlay.marker_count; ++i) {
+    const MarkerTrack& marker = overlay.track->markers[static_cast<std::size_t>(i)];
+    if (marker.observed) {
+      const Centroid* centroid = centroidAt(overlay.observation, marker.pixel);
+      const double radius = std::max(kSmallestRing, (centroid ? centroid->radius_px : 0.0) * scale + 3.0);
+      const QColor color = marker.selected ? theme::kHealthy : theme::kCaution;
+      paintRing(painter, toScreen(marker.pixel, scale), radius, color);
+      paintLabel(painter, toScreen(marker.pixel, scale), radius, QString::number(i + 1), color);
+    }
+    if (marker.predicted) paintCross(painter, toScreen(marker.reprojected, scale));
+  }
+}
+
+}  // namespace helical

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "engine/markers/observation.h"
+#include "engine/tracking/track.h"
+
+class QPainter;
+
+namespace helical {
+
+/// What is drawn over one camera's picture. Both may be missing.
+struct CameraOverlay {
+  const CameraTrack* track = nullptr;        ///< of the same frame
+  const Observation* observation = nullptr;  ///< every region found in it
+  int marker_count = 0;
+};
+
+/// Draws rings with marker ids (green: used for the pose; amber: named but rejected, or a region that is no
+/// marker) and a cross where each marker should be. `scale` is screen pixels per image pixel; the painter's
+/// origin is the picture's top left corner.
+void paintOverlay(QPainter& painter, const CameraOverlay& overlay, double scale);
+
+}  // namespace helical

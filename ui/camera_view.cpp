@@ -1,0 +1,127 @@
+#include "ui/camera_view.h"
+
+#include <QPainter>
+#include <array>
+#include <opencv2/imgproc.hpp>
+
+#include "ui/camera_overlay.h"
+#include "ui/theme.h"
+
+namespace helical {
+
+CameraView::CameraView(const QColor& identity, QSize sensor, int marker_count, QWidget* parent)
+    : QWidget(parent), identity_(identity), sensor_(sensor), marker_count_(marker_count) {
+  setAttribute(Qt::WA_OpaquePaintEvent);
+}
+
+void CameraView::addTrack(const CameraTrack& track) {
+  history_.add(track);
+  // With pictures the next picture repaints; without them the track is all there is to show.
+  if (image_.isNull()) update();
+}
+
+void CameraView::setPicture(const CameraPicture& picture) {
+  observation_ = picture.observation;
+  observed_ = true;
+  if (!picture.bgr.empty()) scalePicture(picture);
+  update();
+}
+
+void CameraView::scalePicture(const CameraPicture& picture) {
+  sensor_ = QSize(picture.width, picture.height);
+  const QSize size = (pictureArea().size() * devicePixelRatioF()).toSize().expandedTo(QSize(1, 1));
+  if (image_.size() != size) image_ = QImage(size, QImage::Format_RGB32);
+  image_.setDevicePixelRatio(devicePixelRatioF());
+  const cv::Mat bgr(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
+  cv::Mat target(size.height(), size.width(), CV_8UC4, image_.bits(),
+                 static_cast<std::size_t>(image_.bytesPerLine()));
+  cv::Mat scaled;
+  cv::resize(bgr, scaled, target.size(), 0, 0, cv::INTER_LINEAR);
+  cv::cvtColor(scaled, target, cv::COLOR_BGR2BGRA);
+}
+
+void CameraView::setHidden(bool hidden) {
+  if (hidden == hidden_) return;
+  hidden_ = hidden;
+  update();
+}
+
+void CameraView::setCaptions(const QString& left, const QString& right) {
+  if (left == left_caption_ && right == right_caption_) return;
+  left_caption_ = left;
+  right_caption_ = right;
+  update();
+}
+
+QRectF CameraView::pictureArea() const {
+  const QSizeF fitted = QSizeF(sensor_).scaled(QSizeF(size()), Qt::KeepAspectRatio);
+  return {QPointF((width() - fitted.width()) / 2, (height() - fitted.height()) / 2), fitted};
+}
+
+void CameraView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), QColor(7, 9, 12));
+  const QRectF area = pictureArea();
+  if (image_.isNull())
+    painter.fillRect(area, QColor(13, 17, 22));
+  else
+    painter.drawImage(area, image_);
+
+  painter.save();
+  painter.setClipRect(area);
+  painter.translate(area.topLeft());
+  CameraOverlay overlay;
+  overlay.track = observed_ ? history_.at(observation_.exposure) : history_.newest();
+  overlay.observation = observed_ ? &observation_ : nullptr;
+  overlay.marker_count = marker_count_;
+  paintOverlay(painter, overlay, area.width() / sensor_.width());
+  painter.restore();
+
+  if (hidden_) paintHidden(painter, area);
+  paintFrame(painter, area);
+  paintCaptions(painter, area);
+  if (!painted_ && !image_.isNull()) {
+    painted_ = true;
+    Q_EMIT firstImagePainted();
+  }
+}
+
+void CameraView::paintFrame(QPainter& painter, const QRectF& area) const {
+  QColor color = identity_;
+  color.setAlpha(hidden_ ? 70 : 170);
+  painter.setPen(QPen(color, 1.6));
+  const QRectF frame = area.adjusted(6, 6, -6, -6);
+  const double length = 13;
+  const std::array<QPointF, 4> corners{frame.topLeft(), frame.topRight(), frame.bottomRight(),
+                                       frame.bottomLeft()};
+  for (const QPointF& corner : corners) {
+    const double dx = corner.x() < frame.center().x() ? length : -length;
+    const double dy = corner.y() < frame.center().y() ? length : -length;
+    painter.drawPolyline(QPolygonF{{corner + QPointF(dx, 0), corner, corner + QPointF(0, dy)}});
+  }
+}
+
+void CameraView::paintCaptions(QPainter& painter, const QRectF& area) const {
+  painter.setFont(theme::monoFont(7.6));
+  const QRectF line(area.left() + 12, area.bottom() - 26, area.width() - 24, 16);
+  const auto paint = [&](const QString& text, Qt::AlignmentFlag side) {
+    if (text.isEmpty()) return;
+    QRectF box = painter.fontMetrics().boundingRect(text);
+    box.moveCenter(line.center());
+    side == Qt::AlignLeft ? box.moveLeft(line.left()) : box.moveRight(line.right());
+    painter.fillRect(box.adjusted(-4, -1, 4, 1), QColor(8, 12, 16, 150));
+    painter.setPen(QColor(205, 215, 226));
+    painter.drawText(line, side | Qt::AlignVCenter, text);
+  };
+  paint(left_caption_, Qt::AlignLeft);
+  paint(right_caption_, Qt::AlignRight);
+}
+
+void CameraView::paintHidden(QPainter& painter, const QRectF& area) const {
+  painter.fillRect(area, QColor(7, 9, 12, 165));
+  painter.setFont(theme::capsFont(9));
+  painter.setPen(theme::kCaution);
+  painter.drawText(area, Qt::AlignCenter, tr("Hidden from the tracker"));
+}
+
+}  // namespace helical

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QMainWindow>
+#include <QTimer>
+#include <array>
+#include <optional>
+
+#include "engine/pipeline/engine.h"
+#include "ui/orbit_view.h"
+
+class QAction;
+class QActionGroup;
+class QLabel;
+class QMenu;
+
+namespace helical {
+
+class CameraWall;
+class EventList;
+class FlightPanel;
+class FlightPlots;
+class PanelTitle;
+class SceneView;
+class TopBar;
+
+struct WindowOptions {
+  bool auto_take_off = false;  ///< start the plan as soon as the pose is known
+};
+
+/// The ground-control window: docks the panels, polls the engine on one timer and hands each panel what it
+/// needs. It never waits for the engine.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  /// Can be shown before there is an engine: building both at once saves start-up time.
+  MainWindow(const RigConfig& rig, const WindowOptions& options);
+  ~MainWindow() override;
+
+  /// From now on shows and commands this engine, which must outlive the window or be detached.
+  void attach(Engine& engine);
+  void detach();
+
+  /// Fills the screen up to 1920x1080.
+  void fitToScreen();
+
+  /// From the start of the process to the first camera picture on the screen.
+  std::optional<TimeNs> firstImageNs() const { return first_image_; }
+
+  CameraWall& cameras() const { return *cameras_; }
+  SceneView& scene() const { return *scene_; }
+  FlightPlots& plots() const { return *plots_; }
+  EventList& events() const { return *events_; }
+  TopBar& topBar() const { return *top_bar_; }
+
+ Q_SIGNALS:
+  void firstImage(qint64 since_process_start_ns);
+
+ public Q_SLOTS:
+  void takeOff();
+  void land();
+  void stop();
+
+ private:
+  void buildPanels();
+  QDockWidget* addPanel(const QString& name, const QColor& tick, QWidget* content, Qt::DockWidgetArea area);
+  void buildSceneTitle(PanelTitle& title);
+  void buildMenus();
+  void buildFlightMenu();
+  void buildCameraMenu();
+  void buildViewMenu();
+  void buildHelpMenu();
+  void buildStatusBar();
+  void arrangeDocks();
+  void showKeys();
+  void showAbout();
+  void toggleFullScreen(bool full);
+
+  void tick();
+  void fetchTicks();
+  void fetchPictures();
+  void showNumbers(const EngineSnapshot& snapshot);
+  void showLoad();
+  void noteFirstImage();
+
+  const RigConfig rig_;
+  const WindowOptions options_;
+  Engine* engine_ = nullptr;
+  QTimer timer_;
+  QElapsedTimer since_load_;
+  std::uint64_t ticks_ = 0;
+  std::uint64_t ticks_at_load_ = 0;
+  int scenes_at_load_ = 0;
+  bool took_off_by_itself_ = false;
+  std::optional<TimeNs> first_image_;
+
+  TopBar* top_bar_;
+  CameraWall* cameras_;
+  SceneView* scene_;
+  FlightPlots* plots_;
+  FlightPanel* flight_;
+  EventList* events_;
+  QDockWidget* cameras_dock_;
+  QDockWidget* plots_dock_;
+  QDockWidget* flight_dock_;
+  QDockWidget* events_dock_;
+  PanelTitle* scene_title_;
+  QActionGroup* viewpoints_;
+  QAction* take_off_action_;
+  QAction* land_action_;
+  std::vector<QAction*> hide_actions_;
+  QLabel* newest_event_;
+  QLabel* load_;
+};
+
+}  // namespace helical

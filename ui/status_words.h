@@ -1,0 +1,32 @@
+#pragma once
+
+#include <QColor>
+#include <QString>
+
+#include "engine/pipeline/snapshot.h"
+
+namespace helical {
+
+/// A state as one coloured word.
+struct StatusWord {
+  QString text;
+  QColor color;
+};
+
+StatusWord cameraStatusWord(CameraStatus status);
+StatusWord phaseWord(FlightPhase phase);
+StatusWord safetyWord(SafetyState state);
+
+/// The one word of the top bar: what the operator must know first.
+StatusWord readinessWord(const EngineSnapshot& snapshot);
+
+/// Names of the failsafes that have acted, comma separated; empty if none has.
+QString failsafeNames(std::uint32_t failsafes);
+
+/// Rotors may be turning.
+bool inFlight(FlightPhase phase);
+
+/// Cameras whose newest frame, at most `kTrackedFor` old, helped the pose.
+int trackedCameras(const EngineSnapshot& snapshot);
+
+}  // namespace helical

@@ -1,0 +1,143 @@
+#include "ui/top_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenuBar>
+#include <QPushButton>
+
+#include "ui/format.h"
+#include "ui/status_chip.h"
+#include "ui/status_words.h"
+#include "ui/theme.h"
+
+namespace helical {
+namespace {
+
+constexpr int kHeight = 48;
+constexpr int kButtonHeight = 30;
+
+QLabel* makeLabel(const QString& text, const QFont& font, const QColor& color) {
+  auto* label = new QLabel(text);
+  label->setFont(font);
+  QPalette palette = label->palette();
+  palette.setColor(QPalette::WindowText, color);
+  label->setPalette(palette);
+  return label;
+}
+
+QFont brandFont() {
+  QFont font = theme::uiFont(11.5, QFont::Bold);
+  font.setLetterSpacing(QFont::AbsoluteSpacing, 2.2);
+  return font;
+}
+
+QPushButton* makeButton(const QString& text, const QString& tip, const char* object_name) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(QLatin1String(object_name));
+  button->setToolTip(tip);
+  button->setAccessibleName(text);
+  button->setFont(theme::uiFont(9, QFont::DemiBold));
+  button->setFixedHeight(kButtonHeight);
+  // Space or Enter on a button that got the focus by accident must not start or stop a flight.
+  button->setFocusPolicy(Qt::TabFocus);
+  button->setAutoDefault(false);
+  return button;
+}
+
+}  // namespace
+
+TopBar::TopBar(QWidget* parent) : QWidget(parent), menu_bar_(new QMenuBar) {
+  setObjectName(QStringLiteral("topBar"));
+  setAttribute(Qt::WA_StyledBackground);
+  setFixedHeight(kHeight);
+  readiness_ = new QLabel(tr("Starting"));
+  readiness_->setFont(theme::capsFont(10, QFont::Bold));
+  readiness_->setAlignment(Qt::AlignCenter);
+  readiness_->setFixedHeight(kButtonHeight);
+  readiness_->setMinimumWidth(QFontMetrics(readiness_->font()).horizontalAdvance(tr("Descending").toUpper()) +
+                              36);
+  readiness_->setAccessibleName(tr("Readiness"));
+  mode_ = makeLabel({}, theme::capsFont(7.2), theme::kMuted);
+  cameras_ = new StatusChip(tr("Tracked"), QStringLiteral("16/16"));
+  cameras_->setToolTip(tr("Cameras that help the pose now, of all in the rig"));
+  engine_ = new StatusChip(tr("Engine"), QStringLiteral("60.0 Hz"));
+  engine_->setToolTip(tr("Control ticks per second"));
+  time_ = new StatusChip(tr("Flight"), QStringLiteral("00:00.0"));
+  time_->setToolTip(tr("Since the rotors started"));
+  buildButtons();
+
+  menu_bar_->setFont(theme::uiFont(9));
+  menu_bar_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(14, 0, 10, 1);
+  layout->setSpacing(8);
+  layout->addWidget(makeLabel(QStringLiteral("HELICAL"), brandFont(), theme::kText));
+  layout->addWidget(makeLabel(tr("Ground Control"), theme::uiFont(10.5), theme::kMuted));
+  layout->addSpacing(10);
+  layout->addWidget(menu_bar_);
+  layout->addStretch(1);
+  layout->addWidget(mode_);
+  layout->addSpacing(6);
+  layout->addWidget(readiness_);
+  for (QWidget* widget :
+       {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_), static_cast<QWidget*>(time_)})
+    layout->addWidget(widget);
+  layout->addSpacing(6);
+  for (QWidget* widget : {take_off_, land_, stop_}) layout->addWidget(widget);
+}
+
+void TopBar::buildButtons() {
+  take_off_ = makeButton(tr("Take off"),
+                         tr("Start the flight plan; needs a pose and the helicopter on the pad"), "takeOff");
+  land_ = makeButton(tr("Land"), tr("Land where it is"), "land");
+  stop_ = makeButton(tr("STOP"), tr("Rotors off at once (Esc). It falls from where it is, and stays off."),
+                     "stop");
+  stop_->setFont(theme::uiFont(10, QFont::Bold));
+  take_off_->setEnabled(false);
+  land_->setEnabled(false);
+  connect(take_off_, &QPushButton::clicked, this, &TopBar::takeOffRequested);
+  connect(land_, &QPushButton::clicked, this, &TopBar::landRequested);
+  // Not on release: a STOP must not wait for the finger to come up.
+  connect(stop_, &QPushButton::pressed, this, &TopBar::stopRequested);
+  connect(stop_, &QPushButton::clicked, this, &TopBar::stopRequested);
+}
+
+QString TopBar::readiness() const {
+  return readiness_->text();
+}
+
+void TopBar::setReadiness(const EngineSnapshot& snapshot) {
+  const StatusWord word = readinessWord(snapshot);
+  if (word.text == readiness_->text() && readiness_->property("color").value<QColor>() == word.color) return;
+  readiness_->setText(word.text);
+  readiness_->setProperty("color", word.color);
+  const bool danger = word.color == theme::kDanger;
+  const QColor& c = word.color;
+  readiness_->setStyleSheet(
+      QStringLiteral("background: rgba(%1,%2,%3,%4); border: 1px solid rgba(%1,%2,%3,150);"
+                     "border-radius: 4px; color: %5;")
+          .arg(c.red())
+          .arg(c.green())
+          .arg(c.blue())
+          .arg(danger ? 200 : 36)
+          .arg(danger ? QStringLiteral("#ffffff") : c.name()));
+}
+
+void TopBar::show(const EngineSnapshot& snapshot) {
+  setReadiness(snapshot);
+  mode_->setText(snapshot.has_truth ? tr("Simulation") : tr("Live"));
+  const int tracked = trackedCameras(snapshot);
+  const QColor cameras_color = tracked == 0                      ? theme::kCaution
+                               : tracked < snapshot.camera_count ? theme::kActive
+                                                                 : theme::kHealthy;
+  cameras_->set(QStringLiteral("%1/%2").arg(tracked).arg(snapshot.camera_count), cameras_color);
+  engine_->set(tr("%1 Hz").arg(plainNumber(snapshot.ticks_per_second, 1)), theme::kHealthy);
+  time_->set(snapshot.flight_time_s > 0.0 ? clockText(fromSeconds(snapshot.flight_time_s)) : kNoValue,
+             inFlight(snapshot.phase) ? theme::kActive : theme::kFaint);
+  const bool cut = snapshot.safety == SafetyState::kCut;
+  take_off_->setEnabled(!cut && snapshot.pose_known && snapshot.phase == FlightPhase::kIdle);
+  land_->setEnabled(!cut &&
+                    (snapshot.phase == FlightPhase::kLiftOff || snapshot.phase == FlightPhase::kFlying));
+}
+
+}  // namespace helical

@@ -1,5 +1,7 @@
 # Sourced by app/run and tests/run: what both do before they differ. Expects `root`, the source tree's folder.
 # Works without the network and at once when nothing is missing.
+# shellcheck shell=bash
+: "${root:?}"
 
 logs=$root/build/logs
 
@@ -47,21 +49,20 @@ install_packages() {
   command -v dpkg-query >/dev/null ||
     die "This is no Debian: Helical installs its packages on Debian 12 only." \
       "install what app/packages.txt lists and build with: cmake --preset release && cmake --build --preset release"
-  wanted=$(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d')
-  # shellcheck disable=SC2086  # one word a package
-  missing=$(comm -23 <(sort -u <<<"$wanted") \
-    <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' | sort -u))
-  [ -n "$missing" ] || return 0
-  say "Installing Debian packages:" $missing
+  mapfile -t wanted < <(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d' | sort -u)
+  mapfile -t missing < <(comm -23 <(printf '%s\n' "${wanted[@]}") \
+    <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
+      sed -n 's/^installed //p' | sort -u))
+  [ ${#missing[@]} -gt 0 ] || return 0
+  say "Installing Debian packages: ${missing[*]}"
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || die "These packages are missing and there is no sudo." \
-      "as root: apt-get install" $missing
+      "as root: apt-get install ${missing[*]}"
     as_root=(sudo)
   fi
   quietly "Updating the package lists" apt-update "${as_root[@]}" apt-get update
-  # shellcheck disable=SC2086
-  quietly "Installing $(wc -w <<<"$missing") packages" apt-install "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y --no-install-recommends $missing
+  quietly "Installing ${#missing[@]} packages" apt-install "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends "${missing[@]}"
 }
 
 # configure PRESET [CMAKE OPTIONS...]: sets up build/PRESET.

@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 #include "ui/theme.h"
 
@@ -36,11 +37,13 @@ void paintRing(QPainter& painter, const QPointF& center, double radius, const QC
   painter.drawEllipse(center, radius, radius);
 }
 
-void paintLabel(QPainter& painter, const QPointF& center, double radius, const QString& text,
-                const QColor& color) {
+/// Writes the id on the ring's side that looks away from the other markers.
+void paintLabel(QPainter& painter, const QPointF& center, double radius, const QPointF& outward,
+                const QString& text, const QColor& color) {
   painter.setFont(theme::monoFont(7.4, QFont::DemiBold));
   const int width = painter.fontMetrics().horizontalAdvance(text) + 6;
-  const QRectF frame(center.x() + 0.72 * radius + 1, center.y() - 0.72 * radius - 13, width, 13);
+  QRectF frame(0, 0, width, 13);
+  frame.moveCenter(center + outward * (radius + 10.0));
   painter.fillRect(frame, QColor(8, 12, 16, 170));
   painter.setPen(color);
   painter.drawText(frame, Qt::AlignCenter, text);
@@ -50,6 +53,24 @@ void paintCross(QPainter& painter, const QPointF& center) {
   painter.setPen(QPen(QColor(255, 255, 255, 210), 1));
   painter.drawLine(center - QPointF(4, 0), center + QPointF(4, 0));
   painter.drawLine(center - QPointF(0, 4), center + QPointF(0, 4));
+}
+
+QPointF middleOfMarkers(const CameraOverlay& overlay, double scale) {
+  QPointF sum;
+  int count = 0;
+  for (int i = 0; i < overlay.marker_count; ++i) {
+    const MarkerTrack& marker = overlay.track->markers[static_cast<std::size_t>(i)];
+    if (!marker.observed) continue;
+    sum += toScreen(marker.pixel, scale);
+    ++count;
+  }
+  return count > 0 ? sum / count : sum;
+}
+
+QPointF direction(const QPointF& from, const QPointF& to) {
+  const QPointF delta = to - from;
+  const double length = std::hypot(delta.x(), delta.y());
+  return length > 1.0 ? delta / length : QPointF(0.0, -1.0);
 }
 
 bool isNamed(const CameraOverlay& overlay, const Eigen::Vector2d& pixel) {
@@ -77,14 +98,16 @@ void paintOverlay(QPainter& painter, const CameraOverlay& overlay, double scale)
   painter.setRenderHint(QPainter::Antialiasing);
   paintUnnamedRegions(painter, overlay, scale);
   if (overlay.track == nullptr) return;
+  const QPointF middle = middleOfMarkers(overlay, scale);
   for (int i = 0; i < overlay.marker_count; ++i) {
     const MarkerTrack& marker = overlay.track->markers[static_cast<std::size_t>(i)];
     if (marker.observed) {
       const Centroid* centroid = centroidAt(overlay.observation, marker.pixel);
       const double radius = std::max(kSmallestRing, (centroid ? centroid->radius_px : 0.0) * scale + 3.0);
       const QColor color = marker.selected ? theme::kHealthy : theme::kCaution;
-      paintRing(painter, toScreen(marker.pixel, scale), radius, color);
-      paintLabel(painter, toScreen(marker.pixel, scale), radius, QString::number(i + 1), color);
+      const QPointF center = toScreen(marker.pixel, scale);
+      paintRing(painter, center, radius, color);
+      paintLabel(painter, center, radius, direction(middle, center), QString::number(i + 1), color);
     }
     if (marker.predicted) paintCross(painter, toScreen(marker.reprojected, scale));
   }

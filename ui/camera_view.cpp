@@ -103,18 +103,18 @@ void CameraView::paintFrame(QPainter& painter, const QRectF& area) const {
 
 void CameraView::paintCaptions(QPainter& painter, const QRectF& area) const {
   painter.setFont(theme::monoFont(7.6));
-  const QRectF line(area.left() + 12, area.bottom() - 26, area.width() - 24, 16);
-  const auto paint = [&](const QString& text, Qt::AlignmentFlag side) {
-    if (text.isEmpty()) return;
-    QRectF box = painter.fontMetrics().boundingRect(text);
-    box.moveCenter(line.center());
-    side == Qt::AlignLeft ? box.moveLeft(line.left()) : box.moveRight(line.right());
-    painter.fillRect(box.adjusted(-4, -1, 4, 1), QColor(8, 12, 16, 150));
+  const QFontMetrics metrics(painter.font());
+  const QRectF line(area.left() + 14, area.bottom() - 27, area.width() - 28, 15);
+  const auto paint = [&](const QString& text, double left) {
+    const QRectF box(left, line.top(), metrics.horizontalAdvance(text), line.height());
+    painter.fillRect(box.adjusted(-4, 0, 4, 0), QColor(8, 12, 16, 150));
     painter.setPen(QColor(205, 215, 226));
-    painter.drawText(line, side | Qt::AlignVCenter, text);
+    painter.drawText(box, Qt::AlignVCenter, text);
   };
-  paint(left_caption_, Qt::AlignLeft);
-  paint(right_caption_, Qt::AlignRight);
+  if (!left_caption_.isEmpty()) paint(left_caption_, line.left());
+  const int right_width = metrics.horizontalAdvance(right_caption_);
+  const bool room = metrics.horizontalAdvance(left_caption_) + 12 + right_width <= line.width();
+  if (!right_caption_.isEmpty() && room) paint(right_caption_, line.right() - right_width);
 }
 
 void CameraView::paintHidden(QPainter& painter, const QRectF& area) const {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMargin = 14;
 constexpr int kRow = 21;
-constexpr int kUnitWidth = 30;
+constexpr int kUnitWidth = 34;
 constexpr int kNumberWidth = 72;
 constexpr int kSheetHeight = 648;
 
@@ -97,7 +97,7 @@ class FlightPanel::Sheet {
 
  private:
   QRect column(int from_right, int height) const {
-    return {width_ - kMargin - kUnitWidth - 2 - (from_right + 1) * kNumberWidth, y_, kNumberWidth, height};
+    return {width_ - kMargin - kUnitWidth + 2 - (from_right + 1) * kNumberWidth, y_, kNumberWidth, height};
   }
   void label(const QString& name) {
     painter_.setFont(theme::uiFont(8.6));
@@ -112,7 +112,7 @@ class FlightPanel::Sheet {
   void unit(const QString& text) {
     painter_.setFont(theme::uiFont(7.8));
     painter_.setPen(theme::kFaint);
-    painter_.drawText(QRect(width_ - kMargin - kUnitWidth + 2, y_, kUnitWidth, kRow), Qt::AlignVCenter, text);
+    painter_.drawText(QRect(width_ - kMargin - kUnitWidth + 8, y_, kUnitWidth, kRow), Qt::AlignVCenter, text);
   }
 
   QPainter& painter_;
@@ -170,7 +170,7 @@ void FlightPanel::paintPosition(Sheet& sheet) const {
   sheet.heading(tr("Position"), tr("now"), tr("set"));
   const RigidTransform& pose = snapshot_.tracked.state.world_from_body;
   const SetPoint& set = snapshot_.set_point;
-  const bool known = snapshot_.pose_known, wanted = inFlight(snapshot_.phase);
+  const bool known = snapshot_.pose_known, wanted = hasReference(snapshot_);
   const char* const names[] = {"X", "Y", "Z"};
   for (int i = 0; i < 3; ++i)
     sheet.pair(QString::fromLatin1(names[i]), known ? signedNumber(pose.translation[i], 3) : kNoValue,
@@ -213,7 +213,7 @@ void FlightPanel::paintTiming(Sheet& sheet) const {
              tr("ms"));
   sheet.pair(tr("To command"), milliseconds(snapshot_.frame_to_command_p50, 2),
              milliseconds(snapshot_.frame_to_command_p99, 2), tr("ms"));
-  sheet.number(tr("Engine time"), clockText(snapshot_.time), tr("min"));
+  sheet.number(tr("Engine time"), clockText(snapshot_.time), {});
 }
 
 }  // namespace helical

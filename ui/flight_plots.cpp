@@ -65,7 +65,7 @@ void FlightPlots::addSeries(int index) {
   const bool lower = index % 2 == 1;
   plot_->plotLayout()->addElement(index % 2, index / 2, series.rect);
   series.rect->setAutoMargins(QCP::msNone);
-  series.rect->setMargins(QMargins(46, 7, 10, lower ? 22 : 7));
+  series.rect->setMargins(QMargins(50, 8, 10, lower ? 22 : 8));
   QCPAxis* time = series.rect->axis(QCPAxis::atBottom);
   QCPAxis* value = series.rect->axis(QCPAxis::atLeft);
   styleAxis(time);
@@ -74,7 +74,7 @@ void FlightPlots::addSeries(int index) {
   time->setNumberFormat(QStringLiteral("f"));
   time->setNumberPrecision(0);
   value->setNumberFormat(QStringLiteral("f"));
-  value->setNumberPrecision(index == 3 ? 0 : 2);
+  value->setNumberPrecision(index == 3 ? 1 : 2);
   value->ticker()->setTickCount(3);
 
   series.reference = plot_->addGraph(time, value);
@@ -104,7 +104,7 @@ void FlightPlots::addTick(const EngineSnapshot& tick) {
     measured = {pose.translation.x(), pose.translation.y(), pose.translation.z(), yaw_deg_};
   }
   std::array<double, kSeries> reference{kNothing, kNothing, kNothing, kNothing};
-  if (inFlight(tick.phase)) {
+  if (hasReference(tick)) {
     const Eigen::Vector3d& place = tick.set_point.position_in_world;
     reference = {place.x(), place.y(), place.z(),
                  yaw_deg_ + toDegrees(wrapAngle(tick.set_point.yaw - toRadians(yaw_deg_)))};
@@ -130,7 +130,9 @@ void FlightPlots::fitRange(Series& series, double from) {
   const double pad = std::max(0.15 * (high - low), 0.2 * step);
   low = step * std::floor((low - pad) / step);
   high = step * std::ceil((high + pad) / step);
-  series.rect->axis(QCPAxis::atLeft)->setRange(low, std::max(high, low + series.smallest_span));
+  const double margin = 0.01 * (high - low);  // or the outermost labels fall off the axis
+  series.rect->axis(QCPAxis::atLeft)
+      ->setRange(low - margin, std::max(high, low + series.smallest_span) + margin);
 }
 
 void FlightPlots::redraw(TimeNs now) {

@@ -23,6 +23,7 @@
 #include "ui/flight_panel.h"
 #include "ui/flight_plots.h"
 #include "ui/format.h"
+#include "ui/legend_key.h"
 #include "ui/panel_title.h"
 #include "ui/scene_view.h"
 #include "ui/startup_time.h"
@@ -62,6 +63,7 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig
   buildPanels();
   buildMenus();
   buildStatusBar();
+  scene_->setFocus();
 
   connect(top_bar_, &TopBar::takeOffRequested, this, &MainWindow::takeOff);
   connect(top_bar_, &TopBar::landRequested, this, &MainWindow::land);
@@ -105,29 +107,33 @@ void MainWindow::buildPanels() {
   setCentralWidget(center);
 
   cameras_ = new CameraWall(rig_);
-  cameras_dock_ = addPanel(tr("Cameras"), theme::kActive, cameras_, Qt::LeftDockWidgetArea);
+  cameras_dock_ = addPanel(new PanelTitle(tr("Cameras"), theme::kActive), cameras_, Qt::LeftDockWidgetArea);
   connect(cameras_, &CameraWall::firstImagePainted, this, &MainWindow::noteFirstImage);
   connect(cameras_, &CameraWall::hideRequested, this, [this](CameraId camera, bool hidden) {
     if (engine_) engine_->hideCamera(camera, hidden);
   });
   plots_ = new FlightPlots;
-  plots_dock_ = addPanel(tr("Flight plots"), theme::kActive, framed(plots_), Qt::BottomDockWidgetArea);
+  auto* plots_title = new PanelTitle(tr("Flight plots"), theme::kActive);
+  plots_title->addWidget(new LegendKey(tr("tracked"), theme::kActive, Qt::SolidLine));
+  plots_title->addWidget(new LegendKey(tr("set-point"), theme::kCaution, Qt::DashLine));
+  plots_dock_ = addPanel(plots_title, framed(plots_), Qt::BottomDockWidgetArea);
   flight_ = new FlightPanel;
   auto* scroll = new QScrollArea;
   scroll->setWidget(flight_);
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  flight_dock_ = addPanel(tr("Flight"), theme::kActive, framed(scroll), Qt::RightDockWidgetArea);
+  flight_dock_ =
+      addPanel(new PanelTitle(tr("Flight"), theme::kActive), framed(scroll), Qt::RightDockWidgetArea);
   events_ = new EventList;
-  events_dock_ = addPanel(tr("Events"), theme::kActive, framed(events_), Qt::RightDockWidgetArea);
+  events_dock_ =
+      addPanel(new PanelTitle(tr("Events"), theme::kActive), framed(events_), Qt::RightDockWidgetArea);
 }
 
-QDockWidget* MainWindow::addPanel(const QString& name, const QColor& tick, QWidget* content,
-                                  Qt::DockWidgetArea area) {
-  auto* dock = new QDockWidget(name);
-  dock->setObjectName(name);
+QDockWidget* MainWindow::addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title->name());
+  dock->setObjectName(title->name());
   dock->setWidget(content);
-  dock->setTitleBarWidget(new PanelTitle(name, tick));
+  dock->setTitleBarWidget(title);
   addDockWidget(area, dock);
   return dock;
 }
@@ -260,7 +266,7 @@ void MainWindow::arrangeDocks() {
   }
   // Three 4:3 pictures above each other fill the height; more cameras get more width.
   const int per_camera = (height() - 110) / std::clamp(cameras_->count(), 1, 3) - 32;
-  const int wanted = cameras_->count() > 3 ? width() / 3 : per_camera * 4 / 3;
+  const int wanted = cameras_->count() > 3 ? width() * 2 / 5 : per_camera * 4 / 3;
   const int cameras_width = std::clamp(wanted, 300, width() * 2 / 5);
   resizeDocks({cameras_dock_, flight_dock_}, {cameras_width, 278}, Qt::Horizontal);
   resizeDocks({plots_dock_}, {height() * 28 / 100}, Qt::Vertical);

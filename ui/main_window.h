@@ -64,7 +64,7 @@ class MainWindow : public QMainWindow {
 
  private:
   void buildPanels();
-  QDockWidget* addPanel(const QString& name, const QColor& tick, QWidget* content, Qt::DockWidgetArea area);
+  QDockWidget* addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area);
   void buildSceneTitle(PanelTitle& title);
   void buildMenus();
   void buildFlightMenu();

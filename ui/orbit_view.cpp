@@ -27,7 +27,7 @@ void OrbitView::look(SceneViewpoint viewpoint) {
     case SceneViewpoint::kFollow:
       azimuth_ = toRadians(-58);
       elevation_ = toRadians(20);
-      distance_ = 2.4;
+      distance_ = 2.7;
       break;
     case SceneViewpoint::kTop:
       azimuth_ = toRadians(-90);
@@ -38,7 +38,7 @@ void OrbitView::look(SceneViewpoint viewpoint) {
     case SceneViewpoint::kIso:
       azimuth_ = toRadians(-52);
       elevation_ = toRadians(28);
-      distance_ = 0.78 * reach_ / half;
+      distance_ = 0.72 * reach_ / half;
       focus_ = Eigen::Vector3d(0.0, 0.0, 0.5);
       break;
   }

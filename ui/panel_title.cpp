@@ -47,10 +47,16 @@ QSize PanelTitle::minimumSizeHint() const {
   return {60, kHeight};
 }
 
-int PanelTitle::paintBadge(QPainter& painter, int left) const {
+int PanelTitle::paintBadge(QPainter& painter, int left, int right) const {
   if (badge_.isEmpty()) return left;
   painter.setFont(theme::capsFont(6.2, QFont::Bold));
   const int width = painter.fontMetrics().horizontalAdvance(badge_.toUpper()) + 11;
+  if (left + width > right) {
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(badge_color_);
+    painter.drawEllipse(QPointF(left + 4, kHeight / 2.0), 3.5, 3.5);
+    return left + 8 + kGap;
+  }
   const QRectF frame(left + 0.5, 6.5, width, 13);
   QColor fill = badge_color_;
   fill.setAlpha(34);
@@ -85,7 +91,7 @@ void PanelTitle::paintEvent(QPaintEvent*) {
   const QString shown = metrics.elidedText(name_.toUpper(), Qt::ElideRight, right - kTextLeft);
   painter.setPen(theme::kText);
   painter.drawText(QRect(kTextLeft, 0, right - kTextLeft, kHeight), Qt::AlignVCenter, shown);
-  const int left = paintBadge(painter, kTextLeft + metrics.horizontalAdvance(shown) + kGap);
+  const int left = paintBadge(painter, kTextLeft + metrics.horizontalAdvance(shown) + kGap, right);
 
   painter.setFont(theme::monoFont(7.8));
   painter.setPen(theme::kMuted);

@@ -31,7 +31,8 @@ class PanelTitle : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  int paintBadge(QPainter& painter, int left) const;
+  /// A dot where the word does not fit. Returns where the next text may begin.
+  int paintBadge(QPainter& painter, int left, int right) const;
 
   QString name_;
   QColor tick_;

@@ -9,6 +9,7 @@
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpaquePass.h>
+#include <vtkOpenGLFXAAPass.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkOverlayPass.h>
 #include <vtkPointData.h>
@@ -160,7 +161,10 @@ void Scene::buildPasses() {
   sequence->SetPasses(passes);
   vtkNew<vtkCameraPass> camera;
   camera->SetDelegatePass(sequence);
-  vtkOpenGLRenderer::SafeDownCast(renderer_)->SetPass(camera);
+  // Smooth edges after the fact: multi-sampling costs a software renderer several times as much.
+  vtkNew<vtkOpenGLFXAAPass> smoothing;
+  smoothing->SetDelegatePass(camera);
+  vtkOpenGLRenderer::SafeDownCast(renderer_)->SetPass(smoothing);
 }
 
 void Scene::add(const vtkSmartPointer<vtkActor>& actor) {

@@ -80,7 +80,7 @@ SceneFrame SceneFrameBuilder::build(const EngineSnapshot& snapshot) const {
   frame.lower_angle = lower_angle_;
   frame.upper_demand = snapshot.sticks.upper_rotor;
   frame.lower_demand = snapshot.sticks.lower_rotor;
-  frame.has_set_point = inFlight(snapshot.phase);
+  frame.has_set_point = hasReference(snapshot);
   frame.set_point = snapshot.set_point.position_in_world;
   for (const TrailPoint& point : trail_) frame.trail.push_back(point.position);
   for (int i = 0; i < snapshot.camera_count; ++i) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/scene_renderer.h"
+#include "ui/scene_thread.h"
 #include "ui/theme.h"
 
 namespace helical {
@@ -30,6 +30,7 @@ SceneView::SceneView(const RigConfig& rig, QWidget* parent)
     : QWidget(parent), rig_(rig), builder_(rig), orbit_(reachOf(rig)) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMinimumSize(320, 200);
+  setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("3D scene"));
   setToolTip(tr("Drag: turn.  Right drag or Shift and drag: move.  Wheel: zoom."));
 }
@@ -47,8 +48,8 @@ void SceneView::look(SceneViewpoint viewpoint) {
 void SceneView::show(const EngineSnapshot& snapshot) {
   if (!isVisible()) return;
   if (!renderer_) {
-    renderer_ = std::make_unique<SceneRenderer>(sceneSetup(rig_));
-    connect(renderer_.get(), &SceneRenderer::rendered, this, [this](const RenderedScene& scene) {
+    renderer_ = std::make_unique<SceneThread>(sceneSetup(rig_));
+    connect(renderer_.get(), &SceneThread::rendered, this, [this](const RenderedScene& scene) {
       shown_ = scene;
       ++rendered_;
       update();

@@ -11,7 +11,7 @@
 
 namespace helical {
 
-class SceneRenderer;
+class SceneThread;
 
 /// The 3D view. Drag turns, right drag or Shift-drag pans, the wheel zooms. Pictures come from the render
 /// thread; painting only copies the newest and writes the cameras' names over it.
@@ -44,7 +44,7 @@ class SceneView : public QWidget {
   const RigConfig& rig_;
   SceneFrameBuilder builder_;
   OrbitView orbit_;
-  std::unique_ptr<SceneRenderer> renderer_;
+  std::unique_ptr<SceneThread> renderer_;
   RenderedScene shown_;
   std::vector<bool> pose_known_;  ///< per camera
   int rendered_ = 0;

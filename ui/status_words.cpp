@@ -99,6 +99,10 @@ bool inFlight(FlightPhase phase) {
   return phase != FlightPhase::kIdle && phase != FlightPhase::kOff;
 }
 
+bool hasReference(const EngineSnapshot& snapshot) {
+  return inFlight(snapshot.phase) && snapshot.safety != SafetyState::kCut;
+}
+
 int trackedCameras(const EngineSnapshot& snapshot) {
   int tracked = 0;
   for (int i = 0; i < snapshot.camera_count; ++i) {

@@ -26,7 +26,10 @@ QString failsafeNames(std::uint32_t failsafes);
 /// Rotors may be turning.
 bool inFlight(FlightPhase phase);
 
-/// Cameras whose newest frame, at most `kTrackedFor` old, helped the pose.
+/// There is a set-point that it follows.
+bool hasReference(const EngineSnapshot& snapshot);
+
+/// Cameras whose newest frame, at most a quarter of a second old, helped the pose.
 int trackedCameras(const EngineSnapshot& snapshot);
 
 }  // namespace helical

@@ -1,4 +1,4 @@
-#include "ui/scene_renderer.h"
+#include "ui/scene_thread.h"
 
 #include <QElapsedTimer>
 #include <QMetaObject>
@@ -24,7 +24,7 @@ QSurfaceFormat sceneFormat() {
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(const SceneSetup& setup)
+SceneThread::SceneThread(const SceneSetup& setup)
     : setup_(setup), context_(std::make_unique<QOpenGLContext>()), worker_(std::make_unique<QObject>()) {
   // Qt wants the surface and the context to be made on the window's thread.
   offscreen_.setFormat(sceneFormat());
@@ -37,14 +37,14 @@ SceneRenderer::SceneRenderer(const SceneSetup& setup)
   thread_.start(QThread::LowPriority);
 }
 
-SceneRenderer::~SceneRenderer() {
+SceneThread::~SceneThread() {
   QMetaObject::invokeMethod(
       worker_.get(), [this] { finish(); }, Qt::BlockingQueuedConnection);
   thread_.quit();
   thread_.wait();
 }
 
-bool SceneRenderer::request(const SceneFrame& frame, const QSizeF& size, double pixel_ratio) {
+bool SceneThread::request(const SceneFrame& frame, const QSizeF& size, double pixel_ratio) {
   if (!valid_ || busy_ || size.isEmpty()) return false;
   busy_ = true;
   QMetaObject::invokeMethod(worker_.get(), [this, frame, size, pixel_ratio] {
@@ -58,7 +58,7 @@ bool SceneRenderer::request(const SceneFrame& frame, const QSizeF& size, double 
   return true;
 }
 
-bool SceneRenderer::prepare() {
+bool SceneThread::prepare() {
   if (!context_->makeCurrent(&offscreen_)) return false;
   if (!prepared_) {
     prepared_ = true;
@@ -68,7 +68,7 @@ bool SceneRenderer::prepare() {
   return true;
 }
 
-RenderedScene SceneRenderer::render(const SceneFrame& frame, const QSizeF& size, double pixel_ratio) {
+RenderedScene SceneThread::render(const SceneFrame& frame, const QSizeF& size, double pixel_ratio) {
   QElapsedTimer timer;
   timer.start();
   RenderedScene result;
@@ -81,7 +81,7 @@ RenderedScene SceneRenderer::render(const SceneFrame& frame, const QSizeF& size,
   return result;
 }
 
-void SceneRenderer::finish() {
+void SceneThread::finish() {
   if (surface_) {
     // VTK frees its OpenGL objects here, which needs the context.
     context_->makeCurrent(&offscreen_);

@@ -16,12 +16,12 @@ class SceneSurface;
 
 /// Renders scenes on a thread of its own and hands back images, so that the window never waits for OpenGL.
 /// Construct, use and destroy on the window's thread.
-class SceneRenderer : public QObject {
+class SceneThread : public QObject {
   Q_OBJECT
 
  public:
-  explicit SceneRenderer(const SceneSetup& setup);
-  ~SceneRenderer() override;
+  explicit SceneThread(const SceneSetup& setup);
+  ~SceneThread() override;
 
   /// False if this machine has no usable OpenGL context.
   bool valid() const { return valid_; }

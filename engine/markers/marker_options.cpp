@@ -9,20 +9,20 @@ namespace {
 
 void checkRange(const char* key, int value, int low, int high) {
   if (value >= low && value <= high) return;
-  throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), key,
+  throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
               "give " + std::to_string(low) + " to " + std::to_string(high));
 }
 
 void checkOrder(const char* low_key, int low, const char* high_key, int high) {
   if (low <= high) return;
-  throw Error(ErrorKind::kInput, std::string(low_key) + " is larger than " + high_key, low_key,
+  throw Error(ErrorKind::kInput, std::string(low_key) + " is larger than " + high_key, {},
               "exchange the two");
 }
 
 void checkOdd(const char* key, int value) {
   checkRange(key, value, 1, 15);
   if (value % 2 == 1) return;
-  throw Error(ErrorKind::kInput, std::string(key) + " is even", key,
+  throw Error(ErrorKind::kInput, std::string(key) + " is even", {},
               "give an odd number of pixels; 1 switches it off");
 }
 
@@ -45,8 +45,8 @@ void validate(const MarkerOptions& o) {
   checkRange("maximum_area_px", o.maximum_area_px, 1, 1'000'000'000);
   checkOrder("minimum_area_px", o.minimum_area_px, "maximum_area_px", o.maximum_area_px);
   if (!(o.centroid_sigma_px > 0.0 && o.centroid_sigma_px <= 100.0))
-    throw Error(ErrorKind::kInput, "centroid_sigma_px is " + std::to_string(o.centroid_sigma_px),
-                "centroid_sigma_px", "give a standard deviation above 0 and up to 100 pixels");
+    throw Error(ErrorKind::kInput, "centroid_sigma_px is " + std::to_string(o.centroid_sigma_px), {},
+                "give a standard deviation above 0 and up to 100 pixels");
 }
 
 }  // namespace helical

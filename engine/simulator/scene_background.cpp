@@ -11,7 +11,7 @@ namespace {
 constexpr int kCopies = 3;
 constexpr int kRowsRenewedPerFrame = 32;
 constexpr int kGridStep = 8;
-constexpr int kSamplesPerAxis = 2;
+constexpr int kSamples = 2;  ///< per pixel, on its diagonal
 constexpr int kGainBits = 12;
 
 }  // namespace
@@ -49,14 +49,13 @@ void SceneBackground::setPose(const RigidTransform& camera_from_world, double ga
 void SceneBackground::renderRow(int y, const RigidTransform& camera_from_world) {
   const Eigen::Matrix3d world_from_camera = camera_from_world.rotation.conjugate().toRotationMatrix();
   const Eigen::Vector3d centre = camera_from_world.inverseTranslation();
-  constexpr float kShare = 1.0F / (kSamplesPerAxis * kSamplesPerAxis);
+  constexpr float kShare = 1.0F / kSamples;
   for (int x = 0; x < width_; ++x) {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     float vignette = 1.0F;
-    for (int s = 0; s < kSamplesPerAxis * kSamplesPerAxis; ++s) {
-      const double dx = (s % kSamplesPerAxis + 0.5) / kSamplesPerAxis - 0.5;
-      const double dy = (s / kSamplesPerAxis + 0.5) / kSamplesPerAxis - 0.5;
-      const Eigen::Vector2d b = bearing(x + dx, y + dy);
+    for (int s = 0; s < kSamples; ++s) {
+      const double offset = (s + 0.5) / kSamples - 0.5;
+      const Eigen::Vector2d b = bearing(x + offset, y + offset);
       const SceneColour colour = roomColour(centre, world_from_camera * Eigen::Vector3d(b.x(), b.y(), 1.0));
       sum += colour.bgr;
       is_floor_[index(x, y)] = colour.is_floor ? 1 : 0;

@@ -128,17 +128,13 @@ void SceneHelicopter::resolve(double gain, SceneNoise& noise, std::uint8_t* bgr)
     const std::int16_t* deviates = noise.stretch(3 * (area.right - area.left + 1));
     std::uint8_t* pixel = bgr + 3 * (static_cast<std::ptrdiff_t>(y) * model_.width() + area.left);
     for (int x = 0; x <= area.right - area.left; ++x, pixel += 3, deviates += 3) {
-      float opacity = 0.0F;
-      Vector3f sum = Vector3f::Zero();
+      Eigen::Vector4f sum = Eigen::Vector4f::Zero();
       for (int sy = 0; sy < kPerAxis; ++sy) {
-        const SampleStrip::Sample* sample = strip_.row(y, sy) + x * kPerAxis;
-        for (int sx = 0; sx < kPerAxis; ++sx) {
-          opacity += sample[sx].opacity;
-          sum += sample[sx].bgr;
-        }
+        const Eigen::Vector4f* colours = strip_.colours(y, sy) + x * kPerAxis;
+        for (int sx = 0; sx < kPerAxis; ++sx) sum += colours[sx];
       }
+      const float opacity = sum[3] * kShare;
       if (opacity <= 0.0F) continue;
-      opacity *= kShare;
       for (int c = 0; c < 3; ++c) {
         const float drawn = sum[c] * kShare * static_cast<float>(gain) +
                             opacity * static_cast<float>(deviates[c]) / SceneNoise::kUnitsPerLevel;

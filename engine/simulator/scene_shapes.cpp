@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace helical {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+using Eigen::Vector4f;
 
 constexpr int kPerAxis = SampleStrip::kPerAxis;
 constexpr double kNearest = 0.06;  ///< m
@@ -23,23 +25,23 @@ PixelRect rectAround(const CameraModel& model, double left, double top, double r
   return rect.clippedTo({0, 0, model.width() - 1, model.height() - 1});
 }
 
-/// Calls `at(sample, x, y)` for every sample of `strip` in `rect`; x, y in pixels.
+/// Calls `at(depth, colour, x, y)` for every sample of `strip` in `rect`; x, y in pixels.
 template <class At>
 void forEachSample(SampleStrip& strip, const PixelRect& rect, At at) {
   const PixelRect part = rect.clippedTo(strip.area());
   for (int y = part.top; y <= part.bottom; ++y)
     for (int sy = 0; sy < kPerAxis; ++sy) {
-      SampleStrip::Sample* sample = strip.row(y, sy) + (part.left - strip.area().left) * kPerAxis;
+      const std::ptrdiff_t first = (part.left - strip.area().left) * kPerAxis;
+      float* depths = strip.depths(y, sy) + first;
+      Vector4f* colours = strip.colours(y, sy) + first;
       const double py = y + SampleStrip::offset(sy);
       for (int i = 0; i < (part.right - part.left + 1) * kPerAxis; ++i)
-        at(sample[i], part.left + (i + 0.5) / kPerAxis - 0.5, py);
+        at(depths[i], colours[i], part.left + (i + 0.5) / kPerAxis - 0.5, py);
     }
 }
 
-void setOpaque(SampleStrip::Sample& sample, double depth, const Vector3f& bgr) {
-  sample.depth = static_cast<float>(depth);
-  sample.opacity = 1.0F;
-  sample.bgr = bgr;
+Vector4f opaque(const Vector3f& bgr) {
+  return {bgr.x(), bgr.y(), bgr.z(), 1.0F};
 }
 
 float lit(double facing) {
@@ -73,12 +75,15 @@ PixelRect PixelRect::clippedTo(const PixelRect& other) const {
 }
 
 SampleStrip::SampleStrip(int width, int height)
-    : samples_(static_cast<std::size_t>(width * kPerAxis) * static_cast<std::size_t>(height * kPerAxis)) {}
+    : depths_(static_cast<std::size_t>(width * kPerAxis) * static_cast<std::size_t>(height * kPerAxis)),
+      colours_(depths_.size()) {}
 
 void SampleStrip::start(const PixelRect& area) {
   area_ = area;
   stride_ = (area.right - area.left + 1) * kPerAxis;
-  std::fill_n(samples_.begin(), stride_ * (area.bottom - area.top + 1) * kPerAxis, Sample{});
+  const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(stride_) * (area.bottom - area.top + 1) * kPerAxis;
+  std::fill_n(depths_.begin(), count, std::numeric_limits<float>::infinity());
+  std::fill_n(colours_.begin(), count, Vector4f::Zero());
 }
 
 LocalLens::LocalLens(const CameraModel& model, const Vector2d& at) : pixel(at), bearing(model.bearing(at)) {
@@ -112,14 +117,15 @@ std::optional<EllipsoidShape> EllipsoidShape::make(const CameraModel& model, con
 
 void EllipsoidShape::draw(SampleStrip& strip, const Vector3d& light) const {
   const double c = eye_.squaredNorm() - 1.0;
-  forEachSample(strip, rect_, [&](SampleStrip::Sample& sample, double x, double y) {
+  forEachSample(strip, rect_, [&](float& nearest, Vector4f& colour, double x, double y) {
     const Vector3d ray = unit_from_camera_ * lens_.ray(x, y);
     const double a = ray.squaredNorm(), b = eye_.dot(ray);
     const double discriminant = b * b - a * c;
     if (discriminant <= 0.0) return;
     const double depth = (-b - std::sqrt(discriminant)) / a;
-    if (depth >= sample.depth) return;
-    setOpaque(sample, depth, shade(eye_ + depth * ray, light));
+    if (depth >= nearest) return;
+    nearest = static_cast<float>(depth);
+    colour = opaque(shade(eye_ + depth * ray, light));
   });
 }
 
@@ -166,17 +172,18 @@ void RodShape::draw(SampleStrip& strip, const Vector3d& light) const {
   const Vector2d across = Vector2d(-along_.y(), along_.x()) * std::sqrt(inverse_length2_);
   const Vector3d side = Vector3d(across.x(), across.y(), 0.0);
   const double side_facing = side.dot(light), front_facing = front.dot(light);
-  forEachSample(strip, rect_, [&](SampleStrip::Sample& sample, double x, double y) {
+  forEachSample(strip, rect_, [&](float& nearest, Vector4f& colour, double x, double y) {
     const Vector2d d(x - from_.x(), y - from_.y());
     const double place = std::clamp(d.dot(along_) * inverse_length2_, 0.0, 1.0);
     const double inverse_depth = inverse_depth_from_ + place * inverse_depth_change_;
     const double radius = focal_radius_ * inverse_depth;
     if ((d - place * along_).squaredNorm() > radius * radius) return;
     const double depth = 1.0 / inverse_depth;
-    if (depth >= sample.depth) return;
+    if (depth >= nearest) return;
     const double profile = std::clamp(d.dot(across) / radius, -1.0, 1.0);
     const double facing = profile * side_facing + std::sqrt(1.0 - profile * profile) * front_facing;
-    setOpaque(sample, depth, surface_.bgr * lit(facing));
+    nearest = static_cast<float>(depth);
+    colour = opaque(surface_.bgr * lit(facing));
   });
 }
 
@@ -192,9 +199,14 @@ std::optional<RotorShape> RotorShape::make(const CameraModel& model, const Vecto
   rotor.radius_ = radius;
   rotor.pixel_size_ = centre.z() / model.fx();
   rotor.surface_ = surface;
-  const double reach = std::max(model.fx(), model.fy()) * radius / (centre.z() - radius) * 1.05 + 2.0;
-  rotor.rect_ =
-      rectAround(model, pixel->x() - reach, pixel->y() - reach, pixel->x() + reach, pixel->y() + reach);
+  // How far the disc reaches along the image's axes, and a margin for perspective.
+  const Vector2d slant = (centre.head<2>() / centre.z()).cwiseAbs();
+  const Vector3d extent = radius * (Vector3d::Ones() - normal.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  const double scale = 1.02 / (centre.z() - extent.z());
+  const double reach_x = model.fx() * (extent.x() + extent.z() * slant.x()) * scale + 2.0;
+  const double reach_y = model.fy() * (extent.y() + extent.z() * slant.y()) * scale + 2.0;
+  rotor.rect_ = rectAround(model, pixel->x() - reach_x, pixel->y() - reach_y, pixel->x() + reach_x,
+                           pixel->y() + reach_y);
   return rotor;
 }
 
@@ -219,13 +231,13 @@ void RotorShape::draw(SampleStrip& strip) const {
       if (!(depth > kNearest)) continue;
       const auto opacity = static_cast<float>(opacityAt(depth * ray - centre_));
       if (opacity <= 0.0F) continue;
+      const Vector4f layer = opaque(surface_.bgr) * opacity;
       for (int sy = 0; sy < kPerAxis; ++sy) {
-        SampleStrip::Sample* sample = strip.row(y, sy) + (x - strip.area().left) * kPerAxis;
-        for (int sx = 0; sx < kPerAxis; ++sx) {
-          if (depth >= sample[sx].depth) continue;
-          sample[sx].bgr = sample[sx].bgr * (1.0F - opacity) + surface_.bgr * opacity;
-          sample[sx].opacity = sample[sx].opacity * (1.0F - opacity) + opacity;
-        }
+        const std::ptrdiff_t first = (x - strip.area().left) * kPerAxis;
+        const float* nearest = strip.depths(y, sy) + first;
+        Vector4f* colour = strip.colours(y, sy) + first;
+        for (int sx = 0; sx < kPerAxis; ++sx)
+          if (depth < nearest[sx]) colour[sx] = colour[sx] * (1.0F - opacity) + layer;
       }
     }
 }

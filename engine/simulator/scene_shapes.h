@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,28 +27,29 @@ class SampleStrip {
  public:
   static constexpr int kPerAxis = 3;
 
-  struct Sample {
-    float depth = std::numeric_limits<float>::infinity();
-    float opacity = 0.0F;
-    Eigen::Vector3f bgr = Eigen::Vector3f::Zero();
-  };
-
   /// The largest strip there will be, in pixels.
   SampleStrip(int width, int height);
 
   void start(const PixelRect& area);
   const PixelRect& area() const { return area_; }
 
-  /// Samples of pixel row `y`, sub-row `sub`; the first is the left one of pixel `area().left`.
-  Sample* row(int y, int sub) { return samples_.data() + ((y - area_.top) * kPerAxis + sub) * stride_; }
+  /// Depth and premultiplied blue, green, red, opacity of the samples in pixel row `y`, sub-row `sub`; the
+  /// first is the left one of pixel `area().left`.
+  float* depths(int y, int sub) { return depths_.data() + rowStart(y, sub); }
+  Eigen::Vector4f* colours(int y, int sub) { return colours_.data() + rowStart(y, sub); }
 
   /// Offset of a sample from its pixel's centre [px].
   static double offset(int sub) { return (sub + 0.5) / kPerAxis - 0.5; }
 
  private:
+  std::ptrdiff_t rowStart(int y, int sub) const {
+    return static_cast<std::ptrdiff_t>((y - area_.top) * kPerAxis + sub) * stride_;
+  }
+
   PixelRect area_;
   int stride_ = 0;
-  std::vector<Sample> samples_;
+  std::vector<float> depths_;
+  std::vector<Eigen::Vector4f> colours_;
 };
 
 /// The lens around one place of the image, to first order: a pixel's ray is (bearing, 1) in the camera frame.

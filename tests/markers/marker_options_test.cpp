@@ -39,7 +39,7 @@ TEST(MarkerOptions, NamesTheKeyThatIsWrong) {
       ADD_FAILURE() << key << " was accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
-      EXPECT_EQ(error.where(), key);
+      EXPECT_NE(error.problem().find(key), std::string::npos) << error.problem();
       EXPECT_FALSE(error.cure().empty());
     }
   }

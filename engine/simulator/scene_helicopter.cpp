@@ -63,8 +63,8 @@ void SceneHelicopter::addBody() {
   addRod({-0.215, 0, -0.005}, {-0.232, 0, 0.066}, 0.0065, kOrange);
   addRod({-0.190, -0.045, 0.021}, {-0.190, 0.045, 0.021}, 0.0045, kOrange);
   addRod({0, 0, 0.03}, {0, 0, 0.178}, 0.0016, kSilver);
-  addEllipsoid({0, 0, kLowerRotorHeight}, {0.008, 0.008, 0.004}, kBlack);
-  addEllipsoid({0, 0, kUpperRotorHeight}, {0.007, 0.007, 0.004}, kBlack);
+  addEllipsoid({0, 0, kLowerRotorHeight}, {0.006, 0.006, 0.004}, kBlack);
+  addEllipsoid({0, 0, kUpperRotorHeight}, {0.005, 0.005, 0.004}, kBlack);
   for (const double side : {-1.0, 1.0}) {
     addRod({-0.075, 0.048 * side, -0.057}, {0.085, 0.048 * side, -0.057}, 0.003, kBlack);
     addRod({0.085, 0.048 * side, -0.057}, {0.103, 0.048 * side, -0.047}, 0.003, kBlack);

@@ -54,8 +54,15 @@ float valueNoise(float x, float y) {
   return top * (1.0F - v) + bottom * v;
 }
 
+/// How much of a pixel's footprint on the floor lies inside an edge that is `depth` [m] away: thin lines
+/// would look dotted otherwise.
+float inside(float depth) {
+  constexpr float kFootprint = 0.006F;
+  return std::clamp(depth / kFootprint + 0.5F, 0.0F, 1.0F);
+}
+
 Vector3f planks(float x, float y) {
-  constexpr float kWidth = 0.13F, kLength = 1.4F, kSeam = 0.004F;
+  constexpr float kWidth = 0.13F, kLength = 1.4F, kHalfSeam = 0.0015F;
   const auto row = static_cast<std::int32_t>(std::floor(y / kWidth));
   const float along = x + kLength * hash(row, 77);
   const auto column = static_cast<std::int32_t>(std::floor(along / kLength));
@@ -65,22 +72,24 @@ Vector3f planks(float x, float y) {
   const float start = 31.0F * hash(column, row);
   const float grain = 0.10F * (valueNoise(2.2F * x + start, 34.0F * y) - 0.5F) +
                       0.07F * (valueNoise(7.0F * x, 110.0F * y + start) - 0.5F);
-  Vector3f colour = Vector3f(100, 124, 145) * (tone + grain);
-  if (across < kSeam || lengthwise < kSeam) colour *= 0.68F;
-  return colour;
+  const float to_seam =
+      std::min(std::min(across, kWidth - across), std::min(lengthwise, kLength - lengthwise));
+  return Vector3f(100, 124, 145) * ((tone + grain) * (1.0F - 0.38F * inside(kHalfSeam - to_seam)));
 }
 
-/// Letter H with a ring, on a rubber mat; an arrow shows where the nose belongs.
-Vector3f pad(float x, float y) {
-  const float radius = std::hypot(x, y);
-  const bool ring = radius > 0.285F && radius < 0.315F;
-  const bool posts = std::abs(x) < 0.15F && std::abs(std::abs(y) - 0.09F) < 0.02F;
-  const bool bar = std::abs(x) < 0.02F && std::abs(y) < 0.09F;
-  const bool arrow = x > 0.335F && x < 0.385F && std::abs(y) < 0.385F - x;
-  const bool edge = std::max(std::abs(x), std::abs(y)) > 0.405F;
-  if (edge) return {60, 62, 66};
-  if (ring || posts || bar || arrow) return {196, 198, 200};
-  return Vector3f(78, 76, 74) * (0.95F + 0.1F * valueNoise(120.0F * x, 120.0F * y));
+/// Letter H with a ring, on a rubber mat; an arrow shows where the nose belongs. `floor` is what lies around
+/// it.
+Vector3f pad(float x, float y, const Vector3f& floor) {
+  const float ring = inside(0.015F - std::abs(std::hypot(x, y) - 0.3F));
+  const float posts = std::min(inside(0.15F - std::abs(x)), inside(0.02F - std::abs(std::abs(y) - 0.09F)));
+  const float bar = std::min(inside(0.02F - std::abs(x)), inside(0.09F - std::abs(y)));
+  const float arrow = std::min(inside(x - 0.335F), inside(0.7F * (0.385F - x - std::abs(y))));
+  const float paint = std::max({ring, posts, bar, arrow});
+  const float border = std::max(std::abs(x), std::abs(y));
+  const Vector3f rubber = Vector3f(78, 76, 74) * (0.95F + 0.1F * valueNoise(120.0F * x, 120.0F * y)) *
+                          (1.0F - 0.2F * inside(border - 0.405F));
+  const Vector3f mat = rubber + paint * (Vector3f(196, 198, 200) - rubber);
+  return mat + inside(border - 0.42F) * (floor - mat);
 }
 
 /// Darkening of the floor close to what stands on it.
@@ -97,11 +106,16 @@ float contactShade(float x, float y) {
   return shade * (1.0F - 0.28F / (1.0F + wall * wall / 0.03F));
 }
 
+Vector3f floorColour(float x, float y) {
+  const Vector3f wood = planks(x, y) * contactShade(x, y);
+  return std::max(std::abs(x), std::abs(y)) < 0.43F ? pad(x, y, wood) : wood;
+}
+
 float lampShade(const Vector3f& point, const Vector3f& normal) {
   const Vector3f to_lamp = kLamp - point;
   const float distance2 = to_lamp.squaredNorm();
   const float facing = std::max(0.0F, normal.dot(to_lamp) / std::sqrt(distance2));
-  return 0.46F + 0.06F * normal.z() + 0.95F * facing / (1.0F + distance2 / 8.0F);
+  return 0.55F + 0.06F * normal.z() + 0.95F * facing / (1.0F + distance2 / 8.0F);
 }
 
 struct Hit {
@@ -191,10 +205,8 @@ SceneColour roomColour(const Eigen::Vector3d& origin_in, const Eigen::Vector3d& 
     colour.bgr = boxColour(*hit.box, p, hit.normal);
   else if (!colour.is_floor)
     colour.bgr = hit.normal.z() < 0.0F ? Vector3f(196, 196, 196) : wallColour(p, hit.normal);
-  else if (std::max(std::abs(p.x()), std::abs(p.y())) < 0.42F)
-    colour.bgr = pad(p.x(), p.y());
   else
-    colour.bgr = planks(p.x(), p.y()) * contactShade(p.x(), p.y());
+    colour.bgr = floorColour(p.x(), p.y());
   colour.bgr *= lampShade(p, hit.normal);
   return colour;
 }

@@ -25,19 +25,27 @@ PixelRect rectAround(const CameraModel& model, double left, double top, double r
   return rect.clippedTo({0, 0, model.width() - 1, model.height() - 1});
 }
 
-/// Calls `at(depth, colour, x, y)` for every sample of `strip` in `rect`; x, y in pixels.
-template <class At>
-void forEachSample(SampleStrip& strip, const PixelRect& rect, At at) {
+/// The samples of one sub-row that lie in a shape's rectangle.
+struct SampleRow {
+  float* depths;
+  Vector4f* colours;
+  int count;
+  double x;  ///< of the first sample; the next is kStep further
+  double y;
+
+  static constexpr double kStep = 1.0 / kPerAxis;
+};
+
+template <class Draw>
+void forEachRow(SampleStrip& strip, const PixelRect& rect, Draw draw) {
   const PixelRect part = rect.clippedTo(strip.area());
+  if (part.isEmpty()) return;
+  const std::ptrdiff_t first = (part.left - strip.area().left) * kPerAxis;
   for (int y = part.top; y <= part.bottom; ++y)
-    for (int sy = 0; sy < kPerAxis; ++sy) {
-      const std::ptrdiff_t first = (part.left - strip.area().left) * kPerAxis;
-      float* depths = strip.depths(y, sy) + first;
-      Vector4f* colours = strip.colours(y, sy) + first;
-      const double py = y + SampleStrip::offset(sy);
-      for (int i = 0; i < (part.right - part.left + 1) * kPerAxis; ++i)
-        at(depths[i], colours[i], part.left + (i + 0.5) / kPerAxis - 0.5, py);
-    }
+    for (int sy = 0; sy < kPerAxis; ++sy)
+      draw(SampleRow{strip.depths(y, sy) + first, strip.colours(y, sy) + first,
+                     (part.right - part.left + 1) * kPerAxis, part.left + SampleStrip::offset(0),
+                     y + SampleStrip::offset(sy)});
 }
 
 Vector4f opaque(const Vector3f& bgr) {
@@ -107,6 +115,7 @@ std::optional<EllipsoidShape> EllipsoidShape::make(const CameraModel& model, con
   EllipsoidShape shape(LocalLens(model, *pixel), surface);
   shape.unit_from_camera_ = radii.cwiseInverse().asDiagonal() * axes.transpose();
   shape.eye_ = -(shape.unit_from_camera_ * centre);
+  shape.to_camera_ = -centre.normalized();
   const Vector2d slant = (centre.head<2>() / centre.z()).cwiseAbs();
   const double reach_x = model.fx() * (extent.x() + extent.z() * slant.x()) / nearest * 1.1 + 1.0;
   const double reach_y = model.fy() * (extent.y() + extent.z() * slant.y()) / nearest * 1.1 + 1.0;
@@ -117,29 +126,33 @@ std::optional<EllipsoidShape> EllipsoidShape::make(const CameraModel& model, con
 
 void EllipsoidShape::draw(SampleStrip& strip, const Vector3d& light) const {
   const double c = eye_.squaredNorm() - 1.0;
-  forEachSample(strip, rect_, [&](float& nearest, Vector4f& colour, double x, double y) {
-    const Vector3d ray = unit_from_camera_ * lens_.ray(x, y);
-    const double a = ray.squaredNorm(), b = eye_.dot(ray);
-    const double discriminant = b * b - a * c;
-    if (discriminant <= 0.0) return;
-    const double depth = (-b - std::sqrt(discriminant)) / a;
-    if (depth >= nearest) return;
-    nearest = static_cast<float>(depth);
-    colour = opaque(shade(eye_ + depth * ray, light));
+  const Vector3d step = unit_from_camera_.leftCols<2>() * lens_.per_x * SampleRow::kStep;
+  forEachRow(strip, rect_, [&](const SampleRow& row) {
+    Vector3d ray = unit_from_camera_ * lens_.ray(row.x, row.y);
+    for (int i = 0; i < row.count; ++i, ray += step) {
+      const double a = ray.squaredNorm(), b = eye_.dot(ray);
+      const double discriminant = b * b - a * c;
+      if (discriminant <= 0.0) continue;
+      const double depth = (-b - std::sqrt(discriminant)) / a;
+      if (depth >= row.depths[i]) continue;
+      row.depths[i] = static_cast<float>(depth);
+      row.colours[i] = opaque(shade(eye_ + depth * ray, light));
+    }
   });
 }
 
 Vector3f EllipsoidShape::shade(const Vector3d& unit, const Vector3d& light) const {
   const Vector3d normal = (unit_from_camera_.transpose() * unit).normalized();
   const double facing = normal.dot(light);
-  // The highlight: where the surface mirrors the lamp towards the camera.
-  const double mirrored =
-      (2.0 * facing * normal - light).dot(-lens_.ray(lens_.pixel.x(), lens_.pixel.y()).normalized());
-  const double gloss = mirrored > 0.9 ? (mirrored - 0.9) * 10.0 : 0.0;
   Vector3f colour = surface_.finish == Finish::kFuselage ? fuselageColour(unit, surface_.bgr) : surface_.bgr;
   colour *= lit(facing);
-  colour += Vector3f::Constant(
-      static_cast<float>((surface_.finish == Finish::kBall ? 34.0 : 70.0) * gloss * gloss));
+  // The highlight: where the surface mirrors the lamp towards the camera.
+  const double mirrored = (2.0 * facing * normal - light).dot(to_camera_);
+  if (mirrored > 0.9) {
+    const double gloss = (mirrored - 0.9) * 10.0;
+    const double strength = surface_.finish == Finish::kBall ? 34.0 : 70.0;
+    colour += Vector3f::Constant(static_cast<float>(strength * gloss * gloss));
+  }
   return colour;
 }
 
@@ -172,18 +185,34 @@ void RodShape::draw(SampleStrip& strip, const Vector3d& light) const {
   const Vector2d across = Vector2d(-along_.y(), along_.x()) * std::sqrt(inverse_length2_);
   const Vector3d side = Vector3d(across.x(), across.y(), 0.0);
   const double side_facing = side.dot(light), front_facing = front.dot(light);
-  forEachSample(strip, rect_, [&](float& nearest, Vector4f& colour, double x, double y) {
-    const Vector2d d(x - from_.x(), y - from_.y());
-    const double place = std::clamp(d.dot(along_) * inverse_length2_, 0.0, 1.0);
-    const double inverse_depth = inverse_depth_from_ + place * inverse_depth_change_;
-    const double radius = focal_radius_ * inverse_depth;
-    if ((d - place * along_).squaredNorm() > radius * radius) return;
-    const double depth = 1.0 / inverse_depth;
-    if (depth >= nearest) return;
-    const double profile = std::clamp(d.dot(across) / radius, -1.0, 1.0);
-    const double facing = profile * side_facing + std::sqrt(1.0 - profile * profile) * front_facing;
-    nearest = static_cast<float>(depth);
-    colour = opaque(surface_.bgr * lit(facing));
+  const double thickest =
+      focal_radius_ * std::max(inverse_depth_from_, inverse_depth_from_ + inverse_depth_change_);
+  forEachRow(strip, rect_, [&](const SampleRow& row) {
+    // Only samples near the infinite line can be on the rod.
+    const double dy = row.y - from_.y();
+    double begin = -1e6, end = 1e6;
+    if (std::abs(across.x()) > 1e-6) {
+      const double middle = from_.x() - across.y() * dy / across.x(), reach = thickest / std::abs(across.x());
+      begin = (middle - reach - row.x) / SampleRow::kStep;
+      end = (middle + reach - row.x) / SampleRow::kStep;
+    } else if (std::abs(dy) > thickest) {
+      return;
+    }
+    const int first = static_cast<int>(std::ceil(std::clamp(begin, 0.0, double(row.count))));
+    const int last = static_cast<int>(std::clamp(end, -1.0, row.count - 1.0));
+    for (int i = first; i <= last; ++i) {
+      const Vector2d d(row.x + i * SampleRow::kStep - from_.x(), dy);
+      const double place = std::clamp(d.dot(along_) * inverse_length2_, 0.0, 1.0);
+      const double inverse_depth = inverse_depth_from_ + place * inverse_depth_change_;
+      const double radius = focal_radius_ * inverse_depth;
+      if ((d - place * along_).squaredNorm() > radius * radius) continue;
+      const double depth = 1.0 / inverse_depth;
+      if (depth >= row.depths[i]) continue;
+      const double profile = std::clamp(d.dot(across) / radius, -1.0, 1.0);
+      const double facing = profile * side_facing + std::sqrt(1.0 - profile * profile) * front_facing;
+      row.depths[i] = static_cast<float>(depth);
+      row.colours[i] = opaque(surface_.bgr * lit(facing));
+    }
   });
 }
 
@@ -212,13 +241,14 @@ std::optional<RotorShape> RotorShape::make(const CameraModel& model, const Vecto
 
 double RotorShape::opacityAt(const Vector3d& from_hub) const {
   const double r2 = from_hub.squaredNorm();
+  const double outermost = radius_ + 0.5 * pixel_size_;
+  if (r2 >= outermost * outermost) return 0.0;
   const double r = std::sqrt(r2);
-  const double edge = std::clamp((radius_ - r) / pixel_size_ + 0.5, 0.0, 1.0);
-  if (edge <= 0.0) return 0.0;
+  const double edge = std::min(1.0, (outermost - r) / pixel_size_);
   const double along = from_hub.dot(blade_);
   const double smear = std::max(0.0, along * along / std::max(r2, 1e-9) - 0.62) / 0.38;
   const double tip = std::max(0.0, r / radius_ - 0.93) / 0.07;
-  return edge * (0.09 + 0.20 * smear + 0.16 * std::min(1.0, tip));
+  return edge * (0.10 + 0.22 * smear + 0.20 * std::min(1.0, tip));
 }
 
 void RotorShape::draw(SampleStrip& strip) const {

@@ -90,6 +90,7 @@ class EllipsoidShape {
   PixelRect rect_;
   Eigen::Matrix3d unit_from_camera_;  ///< camera axes to the space where the ellipsoid is the unit sphere
   Eigen::Vector3d eye_;               ///< the camera's centre there
+  Eigen::Vector3d to_camera_;         ///< unit
 };
 
 /// A thin rod with round ends, drawn in the image with its depth: exact enough for what is a few pixels

@@ -28,6 +28,12 @@ void preferGlx() {
   if (!qEnvironmentVariableIsSet("QT_XCB_GL_INTEGRATION")) qputenv("QT_XCB_GL_INTEGRATION", "xcb_glx");
 }
 
+/// Mesa's software renderer would start a thread per core beside the engine's; without any it draws on our 3D
+/// thread, which is nice to the others.
+void keepSoftwareRendererModest() {
+  if (!qEnvironmentVariableIsSet("LP_NUM_THREADS")) qputenv("LP_NUM_THREADS", "0");
+}
+
 void printFirstImage(qint64 since_process_start) {
   if (qEnvironmentVariableIntValue("HELICAL_PRINT_STARTUP") == 0) return;
   std::fprintf(stderr, "first image after %lld ms\n",
@@ -39,6 +45,7 @@ void printFirstImage(qint64 since_process_start) {
 int runWindow(int argc, char** argv, const RigConfig& rig, const FlightPlan& plan, bool auto_take_off) {
   requireDisplay();
   preferGlx();
+  keepSoftwareRendererModest();
   // The engine prepares its sources while Qt opens the display.
   auto starting = std::async(std::launch::async, [&rig, &plan] {
     auto engine = std::make_unique<Engine>(rig, plan);

@@ -29,7 +29,7 @@ void CameraView::setPicture(const CameraPicture& picture) {
 
 void CameraView::scalePicture(const CameraPicture& picture) {
   sensor_ = QSize(picture.width, picture.height);
-  const QSize size = (pictureArea().size() * devicePixelRatioF()).toSize().expandedTo(QSize(1, 1));
+  const QSize size = (QSizeF(pictureArea().size()) * devicePixelRatioF()).toSize().expandedTo(QSize(1, 1));
   if (image_.size() != size) image_ = QImage(size, QImage::Format_RGB32);
   image_.setDevicePixelRatio(devicePixelRatioF());
   const cv::Mat bgr(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
@@ -53,15 +53,16 @@ void CameraView::setCaptions(const QString& left, const QString& right) {
   update();
 }
 
-QRectF CameraView::pictureArea() const {
-  const QSizeF fitted = QSizeF(sensor_).scaled(QSizeF(size()), Qt::KeepAspectRatio);
-  return {QPointF((width() - fitted.width()) / 2, (height() - fitted.height()) / 2), fitted};
+QRect CameraView::pictureArea() const {
+  // Whole pixels: the picture is then copied, not resampled, whenever it is painted.
+  const QSize fitted = sensor_.scaled(size(), Qt::KeepAspectRatio);
+  return {QPoint((width() - fitted.width()) / 2, (height() - fitted.height()) / 2), fitted};
 }
 
 void CameraView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), QColor(7, 9, 12));
-  const QRectF area = pictureArea();
+  const QRect area = pictureArea();
   if (image_.isNull())
     painter.fillRect(area, QColor(13, 17, 22));
   else
@@ -74,7 +75,7 @@ void CameraView::paintEvent(QPaintEvent*) {
   overlay.track = observed_ ? history_.at(observation_.exposure) : history_.newest();
   overlay.observation = observed_ ? &observation_ : nullptr;
   overlay.marker_count = marker_count_;
-  paintOverlay(painter, overlay, area.width() / sensor_.width());
+  paintOverlay(painter, overlay, static_cast<double>(area.width()) / sensor_.width());
   painter.restore();
 
   if (hidden_) paintHidden(painter, area);

@@ -32,7 +32,7 @@ class CameraView : public QWidget {
 
  private:
   void scalePicture(const CameraPicture& picture);
-  QRectF pictureArea() const;
+  QRect pictureArea() const;
   void paintFrame(QPainter& painter, const QRectF& area) const;
   void paintCaptions(QPainter& painter, const QRectF& area) const;
   void paintHidden(QPainter& painter, const QRectF& area) const;

@@ -1,5 +1,6 @@
 #include "ui/orbit_view.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

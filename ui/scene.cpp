@@ -9,7 +9,6 @@
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpaquePass.h>
-#include <vtkOpenGLFXAAPass.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkOverlayPass.h>
 #include <vtkPointData.h>
@@ -161,10 +160,7 @@ void Scene::buildPasses() {
   sequence->SetPasses(passes);
   vtkNew<vtkCameraPass> camera;
   camera->SetDelegatePass(sequence);
-  // Smooth edges after the fact: multi-sampling costs a software renderer several times as much.
-  vtkNew<vtkOpenGLFXAAPass> smoothing;
-  smoothing->SetDelegatePass(camera);
-  vtkOpenGLRenderer::SafeDownCast(renderer_)->SetPass(smoothing);
+  vtkOpenGLRenderer::SafeDownCast(renderer_)->SetPass(camera);
 }
 
 void Scene::add(const vtkSmartPointer<vtkActor>& actor) {

@@ -1,5 +1,7 @@
 #include "ui/scene_thread.h"
 
+#include <sys/resource.h>
+
 #include <QElapsedTimer>
 #include <QMetaObject>
 #include <QOpenGLContext>
@@ -10,6 +12,8 @@
 
 namespace helical {
 namespace {
+
+constexpr int kNiceness = 10;
 
 QSurfaceFormat sceneFormat() {
   QSurfaceFormat format;
@@ -34,7 +38,10 @@ SceneThread::SceneThread(const SceneSetup& setup)
   context_->moveToThread(&thread_);
   worker_->moveToThread(&thread_);
   thread_.setObjectName(QStringLiteral("scene"));
-  thread_.start(QThread::LowPriority);
+  thread_.start();
+  // Pictures must never take the processor from the flight. Qt's thread priorities do nothing here: Linux
+  // knows only niceness, and that per thread.
+  QMetaObject::invokeMethod(worker_.get(), [] { setpriority(PRIO_PROCESS, 0, kNiceness); });
 }
 
 SceneThread::~SceneThread() {

@@ -75,7 +75,7 @@ void SceneView::paintEvent(QPaintEvent*) {
         renderer_ && !renderer_->valid() ? tr("The 3D view needs OpenGL 3.2") : tr("Starting the 3D view"));
     return;
   }
-  painter.drawImage(QRectF(rect()), shown_.image);
+  painter.drawImage(rect(), shown_.image);
   painter.setRenderHint(QPainter::Antialiasing);
   paintLabels(painter);
   paintUnknownCameras(painter);

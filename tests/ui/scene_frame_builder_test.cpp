@@ -1,0 +1,112 @@
+#include "ui/scene_frame_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace helical {
+namespace {
+
+constexpr TimeNs kTick = kNanosecondsPerSecond / 60;
+
+RigConfig rigOfOneCamera() {
+  RigConfig rig;
+  CameraConfig camera;
+  camera.name = "Camera 1";
+  camera.model = CameraModel(640, 480, 567.6, 567.6, 319.5, 239.5);
+  rig.cameras.push_back(camera);
+  return rig;
+}
+
+/// A camera two metres above the helicopter, looking down.
+EngineSnapshot snapshotFromAbove(const RigConfig& rig) {
+  EngineSnapshot snapshot;
+  snapshot.time = kTick;
+  snapshot.camera_count = 1;
+  snapshot.marker_count = rig.markers_in_body.count();
+  snapshot.pose_known = true;
+  CameraSnapshot& camera = snapshot.cameras[0];
+  camera.estimate.status = CameraStatus::kCalibrated;
+  camera.estimate.camera_from_world.rotation = Eigen::AngleAxisd(3.14159265358979, Eigen::Vector3d::UnitX());
+  camera.estimate.camera_from_world.translation = Eigen::Vector3d(0.0, 0.0, 2.0);
+  camera.track.exposure = snapshot.time;
+  for (int i = 0; i < snapshot.marker_count; ++i) {
+    MarkerTrack& marker = camera.track.markers[static_cast<std::size_t>(i)];
+    marker.selected = true;
+    marker.pixel = *rig.cameras[0].model.project(camera.estimate.camera_from_world *
+                                                 rig.markers_in_body.inBody(markerId(i)));
+  }
+  return snapshot;
+}
+
+TEST(SceneFrameBuilder, SightRaysEndAtTheMarkersTheyShow) {
+  const RigConfig rig = rigOfOneCamera();
+  const EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  builder.addTick(snapshot);
+  const SceneFrame frame = builder.build(snapshot);
+  ASSERT_EQ(frame.rays.size(), static_cast<std::size_t>(rig.markers_in_body.count()));
+  for (int i = 0; i < rig.markers_in_body.count(); ++i) {
+    const SceneRay& ray = frame.rays[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(ray.from.isApprox(Eigen::Vector3d(0.0, 0.0, 2.0), 1e-9));
+    EXPECT_LT((ray.to - rig.markers_in_body.inBody(markerId(i))).norm(), 1e-6);
+  }
+}
+
+TEST(SceneFrameBuilder, ALostHelicopterStaysAsAGhostWhereItWas) {
+  const RigConfig rig = rigOfOneCamera();
+  EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  snapshot.pose_known = false;
+  EXPECT_EQ(builder.build(snapshot).presence, Presence::kAbsent);
+  snapshot.pose_known = true;
+  snapshot.tracked.state.world_from_body.translation = {0.1, 0.2, 0.3};
+  builder.addTick(snapshot);
+  EXPECT_EQ(builder.build(snapshot).presence, Presence::kTracked);
+  snapshot.pose_known = false;
+  snapshot.tracked.state.world_from_body.translation.setZero();
+  const SceneFrame lost = builder.build(snapshot);
+  EXPECT_EQ(lost.presence, Presence::kLastKnown);
+  EXPECT_TRUE(lost.world_from_body.translation.isApprox(Eigen::Vector3d(0.1, 0.2, 0.3)));
+  EXPECT_TRUE(lost.rays.empty());
+}
+
+TEST(SceneFrameBuilder, ACameraWithoutAPoseIsNotDrawn) {
+  const RigConfig rig = rigOfOneCamera();
+  EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  EXPECT_TRUE(builder.build(snapshot).cameras[0].known);
+  EXPECT_TRUE(builder.build(snapshot).cameras[0].in_use);
+  snapshot.cameras[0].hidden = true;
+  EXPECT_FALSE(builder.build(snapshot).cameras[0].in_use);
+  snapshot.cameras[0].estimate.status = CameraStatus::kUncalibrated;
+  EXPECT_FALSE(builder.build(snapshot).cameras[0].known);
+}
+
+TEST(SceneFrameBuilder, RotorsTurnAgainstEachOtherAndStandWithoutDemand) {
+  const RigConfig rig = rigOfOneCamera();
+  EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  builder.addTick(snapshot);
+  EXPECT_EQ(builder.build(snapshot).upper_angle, 0.0);
+  snapshot.sticks.upper_rotor = snapshot.sticks.lower_rotor = 0.5;
+  snapshot.time += kTick;
+  builder.addTick(snapshot);
+  const SceneFrame frame = builder.build(snapshot);
+  EXPECT_LT(frame.upper_angle * frame.lower_angle, 0.0);
+}
+
+TEST(SceneFrameBuilder, TheTrailForgets) {
+  const RigConfig rig = rigOfOneCamera();
+  EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  std::size_t longest = 0;
+  for (int i = 0; i < 60 * 60; ++i) {
+    snapshot.time += kTick;
+    builder.addTick(snapshot);
+    longest = std::max(longest, builder.build(snapshot).trail.size());
+  }
+  EXPECT_GT(longest, 50U);
+  EXPECT_LT(longest, 500U);
+}
+
+}  // namespace
+}  // namespace helical

@@ -1,0 +1,58 @@
+#include "tests/ui/window_fixture.h"
+
+#include <QPushButton>
+
+#include "engine/config/plan_file.h"
+#include "engine/config/resource_files.h"
+#include "engine/config/rig_file.h"
+#include "ui/top_bar.h"
+
+namespace helical {
+
+RigConfig WindowTest::shippedRig(bool images) {
+  RigConfig rig = loadRig(resourceFolder() / "rigs" / "paper.toml");
+  rig.simulation.images = images;
+  rig.simulation.gust_factor = 0.0;
+  return rig;
+}
+
+void WindowTest::open(bool images, bool auto_take_off) {
+  open(shippedRig(images), auto_take_off);
+}
+
+void WindowTest::open(const RigConfig& rig, bool auto_take_off) {
+  FlightPlan plan = loadPlan(planPath("hover"));
+  plan.land_at_s = 1000.0;  // lands when the test says so
+  WindowOptions options;
+  options.auto_take_off = auto_take_off;
+  engine_ = std::make_unique<Engine>(rig, plan);
+  window_ = std::make_unique<MainWindow>(rig, options);
+  window_->fitToScreen();
+  window_->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get(), kPatienceMs));
+  engine_->start();
+  window_->attach(*engine_);
+}
+
+void WindowTest::TearDown() {
+  if (window_) window_->detach();
+  window_.reset();
+  engine_.reset();
+}
+
+bool WindowTest::usesCamera(int camera) const {
+  return snapshot().cameras[static_cast<std::size_t>(camera)].track.selected_count > 0;
+}
+
+bool WindowTest::reaches(FlightPhase phase) {
+  return eventually([this, phase] { return snapshot().phase == phase; });
+}
+
+void WindowTest::takeOffByMouse() {
+  QPushButton* button = window_->topBar().takeOffButton();
+  ASSERT_TRUE(eventually([button] { return button->isEnabled(); })) << "no pose on the pad";
+  click(button);
+  ASSERT_TRUE(reaches(FlightPhase::kFlying));
+}
+
+}  // namespace helical

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <QTest>
+#include <functional>
+#include <memory>
+
+#include "engine/pipeline/engine.h"
+#include "ui/main_window.h"
+
+namespace helical {
+
+/// The real window on the real engine with the shipped rig, in still air.
+class WindowTest : public testing::Test {
+ protected:
+  static constexpr int kPatienceMs = 120'000;  ///< for anything that must happen; no measure of speed
+
+  void open(bool images, bool auto_take_off = false);
+  void open(const RigConfig& rig, bool auto_take_off = false);
+  void TearDown() override;
+
+  static RigConfig shippedRig(bool images);
+  static bool eventually(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, kPatienceMs);
+  }
+
+  const EngineSnapshot& snapshot() const { return engine_->snapshot(); }
+  bool usesCamera(int camera) const;
+  bool reaches(FlightPhase phase);
+  void click(QWidget* button) { QTest::mouseClick(button, Qt::LeftButton); }
+  void takeOffByMouse();
+
+  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+}  // namespace helical

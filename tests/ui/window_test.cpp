@@ -1,0 +1,134 @@
+#include <QApplication>
+#include <QDialog>
+#include <QMenu>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QTimer>
+#include <QToolButton>
+
+#include "tests/ui/window_fixture.h"
+#include "ui/camera_pane.h"
+#include "ui/camera_wall.h"
+#include "ui/event_list.h"
+#include "ui/flight_plots.h"
+#include "ui/panel_title.h"
+#include "ui/scene_view.h"
+#include "ui/top_bar.h"
+
+namespace helical {
+namespace {
+
+bool isCut(const EngineSnapshot& snapshot) {
+  return snapshot.safety == SafetyState::kCut;
+}
+
+TEST_F(WindowTest, CameraTwoIsHiddenAndShownInFlightByMouse) {
+  open(false);
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  ASSERT_TRUE(eventually([this] { return usesCamera(0) && usesCamera(1); }));
+
+  CameraPane& pane = window_->cameras().pane(1);
+  click(pane.hideButton());
+  EXPECT_TRUE(eventually([&] { return snapshot().cameras[1].hidden && !usesCamera(1) && usesCamera(0); }));
+  EXPECT_TRUE(eventually([&] { return pane.cameraHidden(); })) << "the pane shows what the engine says";
+  EXPECT_EQ(pane.title().badge(), "Hidden");
+  EXPECT_EQ(pane.hideButton()->text(), "Show");
+  EXPECT_FALSE(snapshot().cameras[0].hidden);
+
+  click(pane.hideButton());
+  EXPECT_TRUE(eventually([&] { return !snapshot().cameras[1].hidden && usesCamera(1); }));
+  EXPECT_TRUE(eventually([&] { return !pane.cameraHidden(); }));
+  EXPECT_EQ(pane.title().badge(), "Calibrated");
+}
+
+TEST_F(WindowTest, LandsByMouse) {
+  open(false);
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  QPushButton* land = window_->topBar().landButton();
+  ASSERT_TRUE(eventually([land] { return land->isEnabled(); }));
+  click(land);
+  ASSERT_TRUE(reaches(FlightPhase::kOff));
+  EXPECT_FALSE(isCut(snapshot()));
+  EXPECT_TRUE(eventually([this] { return window_->topBar().readiness() == "Landed"; }));
+  EXPECT_FALSE(window_->topBar().takeOffButton()->isEnabled());
+  EXPECT_FALSE(land->isEnabled());
+  EXPECT_GT(window_->events().count(), 2);
+}
+
+TEST_F(WindowTest, TakesOffByItselfWhenAsked) {
+  open(false, true);
+  EXPECT_TRUE(reaches(FlightPhase::kFlying));
+}
+
+TEST_F(WindowTest, EscStopsFromWithinAModalDialog) {
+  open(false);
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  QDialog dialog(window_.get());
+  QTimer::singleShot(0, &dialog, [&dialog] { QTest::keyClick(&dialog, Qt::Key_Escape); });
+  dialog.exec();
+  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
+  EXPECT_TRUE(eventually([this] { return window_->topBar().readiness() == "Cut"; }));
+  EXPECT_TRUE(snapshot().failsafes & static_cast<std::uint32_t>(Failsafe::kKill));
+}
+
+TEST_F(WindowTest, EscStopsFromWithinAnOpenMenu) {
+  open(false);
+  ASSERT_TRUE(eventually([this] { return snapshot().tick > 0; }));
+  QMenu* menu = window_->topBar().menuBar()->actions().first()->menu();
+  menu->popup(window_->mapToGlobal(QPoint(200, 60)));
+  ASSERT_TRUE(eventually([menu] { return menu->isVisible(); }));
+  QTest::keyClick(menu, Qt::Key_Escape);
+  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
+}
+
+TEST_F(WindowTest, StopButtonStopsWhenItGoesDown) {
+  open(false);
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  QTest::mousePress(window_->topBar().stopButton(), Qt::LeftButton);
+  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
+  EXPECT_TRUE(eventually([this] { return !window_->topBar().landButton()->isEnabled(); }));
+}
+
+TEST_F(WindowTest, DigitsHideAndShowCameras) {
+  open(false);
+  ASSERT_TRUE(eventually([this] { return usesCamera(0); }));
+  window_->activateWindow();
+  QTest::keyClick(window_.get(), Qt::Key_1);
+  EXPECT_TRUE(eventually([this] { return snapshot().cameras[0].hidden && !usesCamera(0); }));
+  // The menu's tick follows the engine; until then the key would ask for the same again.
+  ASSERT_TRUE(eventually([this] { return window_->cameras().pane(0).cameraHidden(); }));
+  QTest::keyClick(window_.get(), Qt::Key_1);
+  EXPECT_TRUE(eventually([this] { return !snapshot().cameras[0].hidden && usesCamera(0); }));
+}
+
+TEST_F(WindowTest, PlotsMissNoTick) {
+  open(false);
+  ASSERT_TRUE(eventually([this] { return snapshot().tick > 100; }));
+  EXPECT_EQ(engine_->lostTicks(), 0U);
+  for (int i = 0; i < FlightPlots::kSeries; ++i) EXPECT_GE(window_->plots().pointCount(i), 100);
+}
+
+TEST_F(WindowTest, TheSceneTurnsWithTheMouse) {
+  open(false);
+  SceneView& scene = window_->scene();
+  ASSERT_TRUE(eventually([&] { return scene.renderedFrames() >= 3; }));
+  const QImage before = scene.grab().toImage();
+  QTest::mousePress(&scene, Qt::LeftButton, {}, QPoint(200, 200));
+  QTest::mouseMove(&scene, QPoint(320, 220));
+  QTest::mouseRelease(&scene, Qt::LeftButton, {}, QPoint(320, 220));
+  const int frames = scene.renderedFrames();
+  ASSERT_TRUE(eventually([&] { return scene.renderedFrames() >= frames + 2; }));
+  EXPECT_NE(scene.grab().toImage(), before);
+}
+
+TEST_F(WindowTest, EveryControlHasANameAndATip) {
+  open(false);
+  for (const QAbstractButton* button : window_->findChildren<QAbstractButton*>()) {
+    if (!button->isVisible()) continue;
+    EXPECT_FALSE(button->accessibleName().isEmpty()) << button->text().toStdString();
+    EXPECT_FALSE(button->toolTip().isEmpty()) << button->text().toStdString();
+  }
+}
+
+}  // namespace
+}  // namespace helical

@@ -53,6 +53,10 @@ HelicopterView hoverAt(double t) {
 /// What the extractor makes of rendered markers, over one camera's flight.
 struct Accuracy {
   std::array<std::vector<Vector2d>, kMaxMarkers> errors;  ///< of one marker in consecutive frames
+  double whole_squares = 0.0;  ///< of errors per axis, of balls that show at least 0.8 of their area
+  int whole = 0;
+  double hidden_squares = 0.0;
+  int hidden = 0;
   int expected = 0;
   int dropped = 0;
   int merged = 0;
@@ -88,7 +92,21 @@ double Accuracy::autocovariance(int lag) const {
   return sum / std::max(1, count);
 }
 
-void compare(const Observation& found, const std::vector<Vector2d>& truth, Accuracy& accuracy) {
+/// A ball's place in the image, and the area of its disc there.
+struct Truth {
+  Vector2d pixel;
+  double area_px;
+};
+
+void addError(const Centroid& found, const Truth& truth, Accuracy& accuracy, std::size_t marker) {
+  const Vector2d error = found.pixel - truth.pixel;
+  accuracy.errors[marker].push_back(error);
+  const bool is_whole = found.area_px >= 0.8 * truth.area_px;
+  (is_whole ? accuracy.whole : accuracy.hidden) += 1;
+  (is_whole ? accuracy.whole_squares : accuracy.hidden_squares) += 0.5 * error.squaredNorm();
+}
+
+void compare(const Observation& found, const std::vector<Truth>& truth, Accuracy& accuracy) {
   constexpr double kGate = 5.0;  ///< px, about a ball's radius
   std::array<int, kMaxCentroids> uses{};
   for (std::size_t m = 0; m < truth.size(); ++m) {
@@ -96,7 +114,7 @@ void compare(const Observation& found, const std::vector<Vector2d>& truth, Accur
     int best = -1;
     double nearest = kGate;
     for (int i = 0; i < found.count; ++i) {
-      const double distance = (found.centroids[static_cast<std::size_t>(i)].pixel - truth[m]).norm();
+      const double distance = (found.centroids[static_cast<std::size_t>(i)].pixel - truth[m].pixel).norm();
       if (distance < nearest) nearest = distance, best = i;
     }
     if (best < 0) {
@@ -104,7 +122,7 @@ void compare(const Observation& found, const std::vector<Vector2d>& truth, Accur
       continue;
     }
     if (++uses[static_cast<std::size_t>(best)] == 2) ++accuracy.merged;
-    accuracy.errors[m].push_back(found.centroids[static_cast<std::size_t>(best)].pixel - truth[m]);
+    addError(found.centroids[static_cast<std::size_t>(best)], truth[m], accuracy, m);
   }
   for (int i = 0; i < found.count; ++i)
     accuracy.false_markers += uses[static_cast<std::size_t>(i)] == 0 ? 1 : 0;
@@ -124,9 +142,12 @@ Accuracy fly(double azimuth_deg, std::uint64_t seed, double duration_s) {
   for (const double end = t + duration_s; t < end; t += kFramePeriod) {
     const HelicopterView view = hoverAt(t);
     extractor.extract(renderer.render(camera_from_world, view, t), found);
-    std::vector<Vector2d> truth;
-    for (const Vector3d& marker : layout.all())
-      truth.push_back(*model.project(camera_from_world * (view.world_from_body * marker)));
+    std::vector<Truth> truth;
+    for (const Vector3d& marker : layout.all()) {
+      const Vector3d in_camera = camera_from_world * (view.world_from_body * marker);
+      const double radius_px = model.fx() * layout.radius() / in_camera.z();
+      truth.push_back({*model.project(in_camera), kPi * radius_px * radius_px});
+    }
     compare(found, truth, accuracy);
     ++accuracy.frames;
   }
@@ -136,7 +157,7 @@ Accuracy fly(double azimuth_deg, std::uint64_t seed, double duration_s) {
 class SceneRendererSeenFrom : public testing::TestWithParam<double> {};
 
 TEST_P(SceneRendererSeenFrom, GivesCentroidsCloseToTheTrueProjections) {
-  const Accuracy accuracy = fly(GetParam(), 7, 20.0);
+  const Accuracy accuracy = fly(GetParam(), 7, 12.0);
   const double white = std::sqrt(std::max(0.0, accuracy.autocovariance(0) - accuracy.autocovariance(1)));
   std::printf(
       "camera at %4.0f deg: rms %.3f px per axis, of it frame to frame %.3f; dropped %.2f %%, merged %.2f "
@@ -146,11 +167,16 @@ TEST_P(SceneRendererSeenFrom, GivesCentroidsCloseToTheTrueProjections) {
   std::printf("  share of variance left after frames:");
   for (const int lag : {1, 2, 4, 8, 16, 32, 64, 128})
     std::printf(" %d: %.2f", lag, accuracy.autocovariance(lag) / accuracy.autocovariance(0));
+  std::printf("\n  whole balls: rms %.3f; partly hidden: %.1f %%, rms %.3f",
+              std::sqrt(accuracy.whole_squares / std::max(1, accuracy.whole)),
+              100.0 * accuracy.hidden / (accuracy.whole + accuracy.hidden),
+              std::sqrt(accuracy.hidden_squares / std::max(1, accuracy.hidden)));
   std::printf("\n  mean offset of each marker [px]:");
   for (int m = 0; m < 4; ++m) std::printf(" %.3f", accuracy.meanOffset(m));
   std::printf("\n");
   EXPECT_LT(accuracy.rms(), 0.35);
   EXPECT_GT(accuracy.rms(), 0.03);
+  EXPECT_LT(std::sqrt(accuracy.whole_squares / accuracy.whole), 0.2);
   for (int m = 0; m < 4; ++m) EXPECT_LT(accuracy.meanOffset(m), 0.3);
   EXPECT_LT(accuracy.dropped, 0.02 * accuracy.expected);
   EXPECT_LT(accuracy.merged, 0.02 * accuracy.expected);

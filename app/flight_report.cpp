@@ -15,6 +15,10 @@ json figure(const RunningRms& rms, double scale = 1.0) {
   return rms.count() > 0 ? json(scale * rms.value()) : json(nullptr);
 }
 
+json neesJson(const FlightScore& score, double value) {
+  return score.neesSamples() > 0 ? json(value) : json(nullptr);
+}
+
 json microseconds(TimeNs p50, TimeNs p99) {
   if (p99 == 0) return {{"p50", nullptr}, {"p99", nullptr}};
   return {{"p50", static_cast<double>(p50) * 1e-3}, {"p99", static_cast<double>(p99) * 1e-3}};
@@ -60,7 +64,12 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["tracking"] = {{"position_rms_m", figure(score.trackedPosition())},
                         {"orientation_rms_deg", figure(score.trackedOrientation(), toDegrees(1.0))},
                         {"lost_s", score.lostSeconds()},
-                        {"nees", score.neesSamples() > 0 ? json(score.nees()) : json(nullptr)}};
+                        {"nees", neesJson(score, score.nees())},
+                        {"nees_parts",
+                         {{"horizontal", neesJson(score, score.neesPart(0))},
+                          {"vertical", neesJson(score, score.neesPart(1))},
+                          {"tilt", neesJson(score, score.neesPart(2))},
+                          {"yaw", neesJson(score, score.neesPart(3))}}}};
   report["control"] = {{"position_rms_m", figure(score.hoverHorizontal())},
                        {"height_rms_m", figure(score.hoverHeight())},
                        {"yaw_rms_deg", figure(score.hoverYaw(), toDegrees(1.0))}};

@@ -86,9 +86,11 @@ constexpr OptionField<ControllerOptions> kControllerFields[] = {
     {"height_d", &ControllerOptions::height_d},
     {"height_i", &ControllerOptions::height_i},
     {"yaw_p", &ControllerOptions::yaw_p},
+    {"yaw_rate_limit_deg_s", &ControllerOptions::yaw_rate_limit, kDegree},
     {"yaw_d", &ControllerOptions::yaw_d},
     {"yaw_i", &ControllerOptions::yaw_i},
-    {"spin_i", &ControllerOptions::spin_i},
+    {"ground_yaw_d", &ControllerOptions::ground_yaw_d},
+    {"ground_yaw_i", &ControllerOptions::ground_yaw_i},
     {"output_delay_s", &ControllerOptions::output_delay_s},
 };
 

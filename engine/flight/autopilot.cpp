@@ -11,6 +11,7 @@ namespace {
 constexpr double kSpinUpThrottle = 0.75;   // of hover trim
 constexpr double kSpinUpTime = 1.2;        // s
 constexpr double kThrottleRamp = 0.25;     // hover trims per second until it lifts off
+constexpr double kSlowTurn = 0.3;          // rad/s, above which the throttle waits for the yaw trim
 constexpr double kHighestThrottle = 1.6;   // hover trims: a helicopter that does not lift by then never will
 constexpr double kAirborneHeight = 0.025;  // m above the pad
 constexpr double kIntegrateHeight =
@@ -20,6 +21,10 @@ constexpr double kTouchdownReference = -0.02;  // m: the reference is under the 
 constexpr double kSpinDownRate = 0.5;          // rotor fraction per second
 constexpr double kSettleTime = 1.0;            // s on the ground, after which the rotors may stop at once
 constexpr double kFadeTime = 0.15;             // s: feedback without a pose, to trim
+constexpr double kSinkTime = 0.5;              // s until the open-loop descent has its speed
+constexpr double kSinkThrust = -0.022;         // rotor fraction; a tenth of the weight
+constexpr double kHoldSinkThrust = -0.006;     // what the rotors' damping carries at that speed
+constexpr double kFadeThrust = 0.05;           // rotor fraction per second
 constexpr double kOldPad = 0.05;               // s: a fresher pose measures the pad's height
 
 }  // namespace
@@ -140,7 +145,9 @@ StickDemand Autopilot::act(const AutopilotInput& input, double height) {
       throttle_ = std::min(kSpinUpThrottle, throttle_ + kSpinUpThrottle / kSpinUpTime * dt);
       return controller_.onGround(input.state, throttle_, dt);
     case FlightPhase::kLiftOff:
-      throttle_ += kThrottleRamp * dt;
+      // The skids let go before the torques balance: turning slowly there teaches the yaw trim, spinning does
+      // not.
+      if (std::abs(input.state.angular_velocity_in_body.z()) < kSlowTurn) throttle_ += kThrottleRamp * dt;
       return controller_.onGround(input.state, throttle_, dt);
     case FlightPhase::kFlying:
     case FlightPhase::kLanding: {
@@ -164,10 +171,7 @@ StickDemand Autopilot::flySighted(const AutopilotInput& input, double height) {
   follower_.step(dt, input.state.world_from_body.translation, phase_ == FlightPhase::kLanding);
   Controller::FlyOptions options;
   options.integrate_position = height > kIntegrateHeight;
-  bool spinning = false;
-  const StickDemand sticks = controller_.fly(input.state, follower_.setPoint(), options, dt, &spinning);
-  if (spinning) follower_.setYaw(yawOf(input.state.world_from_body.rotation));
-  return sticks;
+  return controller_.fly(input.state, follower_.setPoint(), options, dt);
 }
 
 StickDemand Autopilot::flyBlind(const AutopilotInput& input) {
@@ -177,12 +181,14 @@ StickDemand Autopilot::flyBlind(const AutopilotInput& input) {
   options.feedback =
       std::min(0.999, std::exp(-(input.pose_age_s - safety_options_.coast_after_s) / kFadeTime));
   if (supervisor_.state == SafetyState::kDescending) {
-    // Open loop: sink to the descent speed in half a second, then hold it against the rotors' damping.
-    const double blind_descent = toSeconds(input.now - supervisor_.descending_since);
-    options.extra_thrust = blind_descent < 0.5 ? -0.022 : -0.006;
+    // Open loop: sink to the descent speed, hold it against the rotors' damping, and fade the thrust once it
+    // should be down.
+    const double since = toSeconds(input.now - supervisor_.descending_since);
+    const double down = supervisor_.descent_s - kSettleOnSkids;
+    options.extra_thrust = since < kSinkTime ? kSinkThrust : kHoldSinkThrust;
+    if (since > down) options.extra_thrust -= kFadeThrust * (since - down);
   }
-  bool spinning = false;
-  return controller_.fly(input.state, follower_.setPoint(), options, 1.0 / control_.rate_hz, &spinning);
+  return controller_.fly(input.state, follower_.setPoint(), options, 1.0 / control_.rate_hz);
 }
 
 }  // namespace helical

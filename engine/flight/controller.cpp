@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kYawIntegralLimit = 0.4;
 constexpr double kHeightIntegralLimit = 0.35;
-constexpr double kSpinRate = 1.2;  // rad/s, beyond which no heading is followed
 constexpr double kLowestThrust = -0.2, kHighestThrust = 0.3;
 
 }  // namespace
@@ -42,15 +41,15 @@ void Controller::reset() {
 StickDemand Controller::onGround(const HelicopterState& state, double throttle, double dt) {
   base_ = throttle;
   const double yaw_rate = state.angular_velocity_in_body.z();
-  yaw_integral_ =
-      std::clamp(yaw_integral_ - options_.spin_i * yaw_rate * dt, -kYawIntegralLimit, kYawIntegralLimit);
+  yaw_integral_ = std::clamp(yaw_integral_ - options_.ground_yaw_i * yaw_rate * dt, -kYawIntegralLimit,
+                             kYawIntegralLimit);
   const Eigen::Matrix2d heading =
       Eigen::Rotation2Dd(-yawOf(state.world_from_body.rotation)).toRotationMatrix();
   const Eigen::Vector2d tilt =
       heading * (state.world_from_body.rotation * Eigen::Vector3d::UnitZ()).head<2>();
   const Eigen::Vector2d velocity = heading * state.velocity_in_world.head<2>();
   const Eigen::Vector2d swash = -0.5 * options_.tilt * tilt - 0.5 * options_.position_d * velocity;
-  return mix(0.0, yaw_integral_ - options_.yaw_d * yaw_rate, swash, false, dt);
+  return mix(0.0, yaw_integral_ - options_.ground_yaw_d * yaw_rate, swash, false, dt);
 }
 
 void Controller::liftOff(double throttle) {
@@ -59,7 +58,7 @@ void Controller::liftOff(double throttle) {
 }
 
 StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_point, const FlyOptions& fly,
-                            double dt, bool* spinning) {
+                            double dt) {
   const bool sighted = fly.feedback >= 1.0;
   const double yaw = yawOf(state.world_from_body.rotation);
   const Eigen::Matrix2d heading = Eigen::Rotation2Dd(-yaw).toRotationMatrix();
@@ -75,15 +74,15 @@ StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_po
                  kLowestThrust, kHighestThrust);
   thrust_ = height_integral_ + (thrust - height_integral_) * fly.feedback + fly.extra_thrust;
 
-  const double yaw_rate = state.angular_velocity_in_body.z();
-  *spinning = std::abs(yaw_rate) > kSpinRate;
-  const double yaw_error = *spinning ? 0.0 : wrapAngle(set_point.yaw - yaw);
-  if (sighted) {
-    const double rate = *spinning ? -options_.spin_i * yaw_rate : options_.yaw_i * yaw_error;
-    yaw_integral_ = std::clamp(yaw_integral_ + rate * dt, -kYawIntegralLimit, kYawIntegralLimit);
-  }
-  const double yaw_demand =
-      yaw_integral_ + (options_.yaw_p * yaw_error - options_.yaw_d * yaw_rate) * fly.feedback;
+  // A bounded turn towards the heading, and the turn's error to the rotors: spinning is stopped before a
+  // heading is sought.
+  const double turn = std::clamp(options_.yaw_p * wrapAngle(set_point.yaw - yaw), -options_.yaw_rate_limit,
+                                 options_.yaw_rate_limit);
+  const double turn_error = turn - state.angular_velocity_in_body.z();
+  if (sighted)
+    yaw_integral_ =
+        std::clamp(yaw_integral_ + options_.yaw_i * turn_error * dt, -kYawIntegralLimit, kYawIntegralLimit);
+  const double yaw_demand = yaw_integral_ + options_.yaw_d * turn_error * fly.feedback;
 
   Eigen::Vector2d error =
       heading * (set_point.position_in_world - state.world_from_body.translation).head<2>();

@@ -33,10 +33,9 @@ class Controller {
     double feedback = 1.0;           ///< 1: full; fades to 0 without a pose, when trims alone remain
     double extra_thrust = 0.0;       ///< rotor fraction added to the base, of an open-loop descent
   };
-  /// Flies to the set-point. `spinning` is set when the yaw rate is beyond following a heading: the caller
-  /// should move the yaw reference along.
+  /// Flies to the set-point.
   StickDemand fly(const HelicopterState& state, const SetPoint& set_point, const FlyOptions& options,
-                  double dt, bool* spinning);
+                  double dt);
 
   /// On the ground after landing: rotors from where they are to zero at `rate` per second. True once they are
   /// off.

@@ -19,9 +19,11 @@ void validate(const ControllerOptions& o) {
                                                   {"height_d", o.height_d},
                                                   {"height_i", o.height_i},
                                                   {"yaw_p", o.yaw_p},
+                                                  {"yaw_rate_limit", o.yaw_rate_limit},
                                                   {"yaw_d", o.yaw_d},
                                                   {"yaw_i", o.yaw_i},
-                                                  {"spin_i", o.spin_i},
+                                                  {"ground_yaw_d", o.ground_yaw_d},
+                                                  {"ground_yaw_i", o.ground_yaw_i},
                                                   {"output_delay_s", o.output_delay_s}};
   for (const auto& [key, value] : gains)
     if (!(value >= 0.0) || !std::isfinite(value))

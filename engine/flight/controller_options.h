@@ -3,13 +3,13 @@
 namespace helical {
 
 /// Gains of the four-channel controller. Swash plate in fractions of full stick, rotors in fractions 0..1.
-/// Defaults: gains found in a closed-loop study of the model at 40 ms of delay; they hold for +-30 % of every
-/// parameter and up to 60 ms.
+/// Defaults were found by flying the simulated XRB with every parameter within +-30 % (tests/pipeline repeats
+/// some).
 struct ControllerOptions {
   double rate_hz = 60.0;
-  double position_p = 1.2;            ///< per m
-  double position_d = 1.4;            ///< per m/s
-  double position_i = 0.4;            ///< per m s
+  double position_p = 1.8;            ///< per m
+  double position_d = 2.1;            ///< per m/s
+  double position_i = 0.5;            ///< per m s
   double position_i_limit = 0.35;     ///< fraction of full stick
   double position_error_limit = 0.5;  ///< m
   double tilt = 2.0;                  ///< per rad
@@ -17,10 +17,12 @@ struct ControllerOptions {
   double height_p = 0.20;             ///< per m
   double height_d = 0.12;             ///< per m/s
   double height_i = 0.15;             ///< per m s
-  double yaw_p = 0.008;               ///< per rad
-  double yaw_d = 0.0045;              ///< per rad/s
-  double yaw_i = 0.006;               ///< per rad s
-  double spin_i = 0.006;              ///< per rad: integrates the yaw rate while it spins or stands
+  double yaw_p = 1.5;                 ///< rad/s of wanted turn per rad
+  double yaw_rate_limit = 0.8;        ///< rad/s, of the wanted turn
+  double yaw_d = 0.006;               ///< per rad/s
+  double yaw_i = 0.004;               ///< per rad: integrates the error of the turn
+  double ground_yaw_d = 0.010;        ///< per rad/s: the same two on the skids, whose friction helps
+  double ground_yaw_i = 0.02;         ///< per rad
   double output_delay_s = 0.023;      ///< from the control tick until the sticks act: transmitter and servo
 };
 

@@ -19,8 +19,6 @@ class PlanFollower {
   /// waypoints; with `landing` it goes down where it is and on into the ground, so that it surely touches.
   const SetPoint& step(double dt, const Eigen::Vector3d& position, bool landing);
 
-  /// Yaw reference to the present heading: while it spins too fast to follow one.
-  void setYaw(double yaw) { set_point_.yaw = yaw; }
   /// Set-point to where the helicopter is, after a gap: no jump, no race back.
   void resetTo(const Eigen::Vector3d& position);
 

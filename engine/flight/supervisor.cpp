@@ -37,7 +37,7 @@ SupervisorMemory withoutPose(const SupervisorOptions& options, SupervisorMemory 
   if (memory.descending_since < 0) {
     memory.descending_since = c.now;
     memory.descent_s =
-        std::min(options.longest_descent_s, std::max(0.5, c.height_above_pad / options.descent_speed));
+        std::min(options.longest_descent_s, c.height_above_pad / options.descent_speed + kSettleOnSkids);
   }
   memory.state = SafetyState::kDescending;
   raise(Failsafe::kNoPoseDescent);

@@ -20,6 +20,9 @@ struct SupervisorConditions {
   bool kill = false;
 };
 
+/// An open-loop descent ends this long after it should have reached the ground, in seconds.
+inline constexpr double kSettleOnSkids = 1.0;
+
 /// What it remembers from tick to tick.
 struct SupervisorMemory {
   SafetyState state = SafetyState::kNormal;

@@ -4,7 +4,7 @@ namespace helical {
 
 /// Thresholds of the supervisor; they stand beside those of trusted systems in engine/flight/README.md.
 struct SupervisorOptions {
-  double coast_after_s = 0.06;     ///< without a pose: controller fades to trim
+  double coast_after_s = 0.05;     ///< without a pose: controller fades to trim
   double descend_after_s = 0.5;    ///< without a pose: open-loop descent
   double descent_speed = 0.5;      ///< m/s, of the open-loop descent
   double longest_descent_s = 6.0;  ///< then the rotors are cut, whatever the height

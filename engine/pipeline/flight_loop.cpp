@@ -52,7 +52,9 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i)
     usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !snapshot_.cameras[i].hidden;
   const std::size_t cameras = rig_.cameras.size();
+  const TimeNs last_update = tracker_.lastUpdate();
   tracker_.update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
+  if (tracker_.lastUpdate() != last_update) pose_time_ = now;
   snapshot_.cameras[index].track = tracker_.track(observation.camera);
   work_since_tick_ += stopwatch().now() - begin;
 }
@@ -79,7 +81,7 @@ const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& comman
   AutopilotInput input;
   input.now = now;
   input.pose_known = tracker_.acquired();
-  input.pose_age_s = toSeconds(now - tracker_.lastUpdate());
+  input.pose_age_s = toSeconds(now - pose_time_);
   input.state = tracker_.predict(now + fromSeconds(rig_.control.output_delay_s), airborne_).state;
   input.commands = commands;
   const AutopilotOutput output = autopilot_.step(input);
@@ -97,13 +99,13 @@ const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& comman
 }
 
 void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
-  const double age = toSeconds(now - tracker_.lastUpdate());
+  const double age = toSeconds(now - pose_time_);
   if (snapshot_.phase == FlightPhase::kIdle && output.phase != FlightPhase::kIdle) started_ = now;
   if (output.phase != FlightPhase::kOff && started_ >= 0) snapshot_.flight_time_s = toSeconds(now - started_);
   snapshot_.time = now;
   ++snapshot_.tick;
   snapshot_.pose_known = tracker_.acquired() && age <= rig_.safety.coast_after_s;
-  snapshot_.pose_age = now - tracker_.lastUpdate();
+  snapshot_.pose_age = now - pose_time_;
   snapshot_.phase = output.phase;
   snapshot_.safety = output.safety;
   snapshot_.failsafes = output.failsafes;

@@ -54,6 +54,7 @@ class FlightLoop {
   LatencyHistogram server_time_;
   LatencyHistogram frame_to_command_;
   TimeNs work_since_tick_ = 0;
+  TimeNs pose_time_ = 0;  ///< when an observation last gave a pose
   bool airborne_ = false;
   TimeNs started_ = -1;
 };

@@ -17,14 +17,23 @@ constexpr double kFineGatePx = 10.0;
 constexpr double kPnpLimitPx = 4.0;
 constexpr double kExplainedShare = 0.7;
 constexpr int kFewestInliers = 4;
+constexpr double kTiltSigma = 0.3;          // rad
+constexpr double kDistinctDistance = 0.05;  // m
+constexpr double kDistinctAngle = 0.35;     // rad
+constexpr double kClearLead = 6.0;          // cost by which the best pose must lead any other
 constexpr double kYawStep = toRadians(15.0);
 
-/// Squared pixels by which a hypothesis must fit better to make up for being unlikely: one radian of turn
-/// from the prior or 0.3 rad of tilt count as half a pixel.
+/// What the prior says against a pose, in the units of squared pixels over one pixel's variance.
 double unlikeliness(const RigidTransform& pose, const PosePrior& prior) {
-  const double turn = wrapAngle(yawOf(pose.rotation) - yawOf(prior.world_from_body.rotation));
-  const double tilt = tiltOf(pose.rotation) / 0.3;
-  return 0.25 * (turn * turn + tilt * tilt);
+  const double turn =
+      wrapAngle(yawOf(pose.rotation) - yawOf(prior.world_from_body.rotation)) / prior.yaw_sigma;
+  const double tilt = tiltOf(pose.rotation) / kTiltSigma;
+  return turn * turn + tilt * tilt;
+}
+
+bool distinct(const RigidTransform& a, const RigidTransform& b) {
+  return (a.translation - b.translation).norm() > kDistinctDistance ||
+         a.rotation.angularDistance(b.rotation) > kDistinctAngle;
 }
 
 bool within(const RigidTransform& pose, const PosePrior& prior) {
@@ -38,6 +47,18 @@ bool within(const RigidTransform& pose, const PosePrior& prior) {
 struct Acquisition::Best {
   PoseFit fit;
   double cost = 1e300;
+  double runner_up = 1e300;  ///< cost of the best pose that is distinctly different
+
+  void offer(const PoseFit& other, double other_cost) {
+    const bool different = cost < 1e300 && distinct(other.world_from_body, fit.world_from_body);
+    if (other_cost < cost) {
+      if (different) runner_up = std::min(runner_up, cost);
+      fit = other;
+      cost = other_cost;
+    } else if (different) {
+      runner_up = std::min(runner_up, other_cost);
+    }
+  }
 };
 
 Acquisition::Acquisition(const MarkerLayout& markers, std::vector<CameraModel> cameras)
@@ -47,10 +68,6 @@ void Acquisition::add(const Observation& observation) {
   const auto index = static_cast<std::size_t>(observation.camera.index());
   newest_[index] = observation;
   seen_[index] = true;
-}
-
-void Acquisition::forget() {
-  seen_.fill(false);
 }
 
 std::optional<PoseFit> Acquisition::attempt(TimeNs time, std::span<const CameraEstimate> cameras,
@@ -79,7 +96,7 @@ std::optional<PoseFit> Acquisition::attempt(TimeNs time, std::span<const CameraE
   for (int v = 0; v < view_count_; ++v) considerHull(views_[static_cast<std::size_t>(v)], prior, best);
 
   const int needed = std::max(kFewestInliers, static_cast<int>(std::ceil(kExplainedShare * possible_)));
-  if (best.fit.inliers < needed) return std::nullopt;
+  if (best.fit.inliers < needed || best.runner_up - best.cost < kClearLead) return std::nullopt;
   return best.fit;
 }
 
@@ -108,8 +125,7 @@ void Acquisition::consider(const RigidTransform& hypothesis, const PosePrior& pr
   if (!fit.ok || !within(fit.world_from_body, prior)) return;
   const double misfit =
       2.0 * fit.inliers * fit.rms_px * fit.rms_px + (possible_ - fit.inliers) * kInlierPx * kInlierPx;
-  const double cost = misfit + unlikeliness(fit.world_from_body, prior);
-  if (cost < best.cost) best = {fit, cost};
+  best.offer(fit, misfit + unlikeliness(fit.world_from_body, prior));
 }
 
 void Acquisition::considerHull(const NamedView& view, const PosePrior& prior, Best& best) {
@@ -128,6 +144,10 @@ void Acquisition::considerHull(const NamedView& view, const PosePrior& prior, Be
 
   // A camera above the markers sees them turn the other way round than the body's x-y plane does: y points
   // down.
+  PosePrior wider = prior;
+  wider.position_radius += 0.2;
+  wider.yaw_range += 0.2;
+  wider.tilt_limit += 0.2;
   const RigidTransform world_from_camera = view.camera_from_world.inverse();
   const bool from_above = world_from_camera.translation.z() > prior.world_from_body.translation.z();
   for (int shift = 0; shift < n; ++shift) {
@@ -145,9 +165,7 @@ void Acquisition::considerHull(const NamedView& view, const PosePrior& prior, Be
       const PlanarPose& pose = poses.poses[static_cast<std::size_t>(p)];
       if (pose.rms_px > kPnpLimitPx) continue;
       const RigidTransform hypothesis = world_from_camera * pose.camera_from_body;
-      if (within(hypothesis, {prior.world_from_body, prior.position_radius + 0.2, prior.yaw_range + 0.2,
-                              prior.tilt_limit + 0.2}))
-        consider(hypothesis, prior, best);
+      if (within(hypothesis, wider)) consider(hypothesis, prior, best);
     }
   }
 }

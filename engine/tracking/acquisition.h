@@ -19,24 +19,24 @@ struct PosePrior {
   RigidTransform world_from_body;
   double position_radius = 0.3;  ///< m
   double yaw_range = 0.785;      ///< rad, either way
+  double yaw_sigma = 0.35;       ///< rad: how well the heading is known within that range
   double tilt_limit = 0.35;      ///< rad
 };
 
 /// Finds the helicopter from centroids without names: on the pad at the start, and after every gap in flight.
 /// Hypotheses come from the prior (turned in steps over its yaw range) and from each camera's hull of four or
 /// more centroids: every cyclic shift against the layout's hull, both poses of the planar problem. Each is
-/// fitted to all cameras with names by the nearest reprojection; the best robust cost wins. Allocates nothing
-/// after construction. One thread.
+/// fitted to all cameras with names by the nearest reprojection; the best robust cost wins, if no distinctly
+/// different pose comes near it. Allocates nothing after construction. One thread.
 class Acquisition {
  public:
   Acquisition(const MarkerLayout& markers, std::vector<CameraModel> cameras);
 
   /// Keeps the newest observation of each camera.
   void add(const Observation& observation);
-  void forget();
 
   /// A pose at about `time` from the usable cameras' observations of the last 20 ms, if one explains at least
-  /// 70 % of what a helicopter would show them and lies within the prior.
+  /// 70 % of what a helicopter would show them, lies within the prior, and is the only one that does.
   std::optional<PoseFit> attempt(TimeNs time, std::span<const CameraEstimate> cameras,
                                  std::span<const bool> usable, const PosePrior& prior);
 

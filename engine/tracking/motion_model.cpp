@@ -9,6 +9,7 @@
 namespace helical {
 namespace {
 
+constexpr double kLettingGo = 3.0;
 constexpr double kLongestStep = 0.01;  // s; the linearisation's error over it is far below the noise
 
 void addIntegratedNoise(Matrix12d& covariance, int integral, int rate, double density, double dt) {
@@ -49,8 +50,10 @@ void MotionModel::step(HelicopterState& state, Matrix12d* covariance, double dt,
         addIntegratedNoise(
             *covariance, kPositionError + axis, kVelocityError + axis,
             axis < 2 ? options_.acceleration_noise_lateral : options_.acceleration_noise_vertical, dt);
+        // The skids hold it, then let go at once against all the torque that the trims do not balance.
+        const double yaw_noise = (airborne ? 1.0 : kLettingGo) * options_.spin_noise_yaw;
         addIntegratedNoise(*covariance, kRotationError + axis, kSpinError + axis,
-                           axis < 2 ? options_.spin_noise_tilt : options_.spin_noise_yaw, dt);
+                           axis < 2 ? options_.spin_noise_tilt : yaw_noise, dt);
       }
     }
     *covariance = 0.5 * (*covariance + covariance->transpose()).eval();

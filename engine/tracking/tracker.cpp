@@ -12,8 +12,10 @@ namespace {
 /// 99.9 % points of chi-square for 2, 4, 6, 8 ... degrees of freedom: the joint test of a camera's features.
 constexpr std::array<double, 16> kJointLimit{13.8, 18.5, 22.5, 26.1, 29.6, 32.9, 36.1, 39.3,
                                              42.3, 45.3, 48.3, 51.2, 54.1, 56.9, 59.7, 62.5};
-constexpr int kProbation = 2;       // frames that a rejected feature has to agree before it counts again
-constexpr int kFruitlessLimit = 9;  // three frames of each of three cameras
+constexpr int kProbation = 2;  // frames that a rejected feature has to agree before it counts again
+constexpr double kDoubtfulAgreement = 0.6;  // of the centroids in view: below, the pose itself is in doubt
+constexpr double kAgreementGain = 0.05;     // an average over some 20 observations
+constexpr double kForeseen = 0.3;           // s, over which the motion model is better than standing still
 constexpr double kPartlyHidden =
     0.8;  // share of the expected area below which a ball counts as partly hidden
 constexpr double kHiddenShift =
@@ -64,13 +66,16 @@ void Tracker::update(const Observation& observation, std::span<const CameraEstim
   if (!usable[index]) return;
   acquisition_.add(observation);
   const bool gap = toSeconds(observation.exposure - last_update_) > options_.reacquire_after_s;
-  if (!acquired_ || gap || fruitless_ >= kFruitlessLimit) {
-    acquire(observation, cameras, usable, airborne);
-    if (!acquired_ || last_update_ != observation.exposure) return;
-  } else {
-    model_.propagate(state_, &covariance_, toSeconds(observation.exposure - time_), airborne);
-    time_ = observation.exposure;
+  if (!acquired_ || gap || agreement_ < kDoubtfulAgreement) {
+    const auto fit =
+        acquisition_.attempt(observation.exposure, cameras, usable, priorAt(observation.exposure, airborne));
+    if (fit)
+      restart(*fit, observation.exposure);
+    else if (!acquired_ || gap)
+      return;
   }
+  model_.propagate(state_, &covariance_, toSeconds(observation.exposure - time_), airborne);
+  time_ = observation.exposure;
 
   Features features;
   predictFeatures(observation, cameras[index], features);
@@ -79,30 +84,30 @@ void Tracker::update(const Observation& observation, std::span<const CameraEstim
   if (correct(cameras[index], features)) {
     last_update_ = observation.exposure;
     last_good_ = state_;
-    fruitless_ = 0;
-  } else if (observation.count >= 2) {
-    ++fruitless_;
   }
   report(observation, cameras[index], features, track);
+  const int in_view = std::min(observation.count, markers_.count());
+  if (in_view >= 2)
+    agreement_ += kAgreementGain * (static_cast<double>(track.selected_count) / in_view - agreement_);
 }
 
-void Tracker::acquire(const Observation& observation, std::span<const CameraEstimate> cameras,
-                      std::span<const bool> usable, bool airborne) {
+PosePrior Tracker::priorAt(TimeNs time, bool airborne) const {
   PosePrior prior;
-  const double gap = toSeconds(observation.exposure - last_update_);
   if (!acquired_) {
     prior.world_from_body.translation.z() = standing_height_;
-  } else {
-    HelicopterState guess = last_good_;
-    model_.propagate(guess, nullptr, std::min(gap, 0.3), airborne);
-    prior.world_from_body = guess.world_from_body;
-    prior.position_radius = 0.3 + 1.5 * gap;
-    prior.yaw_range = std::min(kPi, 0.5 + 4.0 * gap);
-    prior.tilt_limit = 0.8;
+    return prior;
   }
-  const auto fit = acquisition_.attempt(observation.exposure, cameras, usable, prior);
-  if (!fit) return;
-  restart(*fit, observation.exposure);
+  const double gap = toSeconds(time - last_update_);
+  HelicopterState guess = last_good_;
+  model_.propagate(guess, nullptr, std::min(gap, kForeseen), airborne);
+  prior.world_from_body = guess.world_from_body;
+  prior.position_radius = 0.3 + 1.5 * gap;
+  // A pose that does not explain what is seen may be turned any way.
+  const bool doubtful = agreement_ < kDoubtfulAgreement;
+  prior.yaw_range = doubtful ? kPi : std::min(kPi, 0.5 + 4.0 * gap);
+  prior.yaw_sigma = doubtful ? 2.0 : 0.15 + 1.0 * gap;
+  prior.tilt_limit = 0.8;
+  return prior;
 }
 
 void Tracker::restart(const PoseFit& fit, TimeNs time) {
@@ -136,7 +141,7 @@ void Tracker::restart(const PoseFit& fit, TimeNs time) {
   acquired_ = true;
   time_ = last_update_ = time;
   last_good_ = state_;
-  fruitless_ = 0;
+  agreement_ = 1.0;
 }
 
 void Tracker::predictFeatures(const Observation& observation, const CameraEstimate& estimate,

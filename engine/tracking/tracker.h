@@ -55,8 +55,7 @@ class Tracker {
   };
   using Features = std::array<Feature, kMaxMarkers>;
 
-  void acquire(const Observation& observation, std::span<const CameraEstimate> cameras,
-               std::span<const bool> usable, bool airborne);
+  PosePrior priorAt(TimeNs time, bool airborne) const;
   void restart(const PoseFit& fit, TimeNs time);
   void predictFeatures(const Observation& observation, const CameraEstimate& estimate,
                        Features& features) const;
@@ -80,7 +79,7 @@ class Tracker {
   HelicopterState state_;
   Matrix12d covariance_ = Matrix12d::Identity();
   HelicopterState last_good_;
-  int fruitless_ = 0;  ///< observations in a row that showed markers of which none fitted
+  double agreement_ = 1.0;  ///< running share of the centroids in view that fitted
   std::array<std::array<std::uint8_t, kMaxMarkers>, kMaxCameras> probation_{};
   std::array<CameraTrack, kMaxCameras> tracks_{};
 };

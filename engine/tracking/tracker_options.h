@@ -7,7 +7,7 @@ struct TrackerOptions {
   double acceleration_noise_lateral = 0.35;   ///< m/s^2 per sqrt(Hz)
   double acceleration_noise_vertical = 0.35;  ///< m/s^2 per sqrt(Hz)
   double spin_noise_tilt = 8.0;               ///< rad/s^2 per sqrt(Hz)
-  double spin_noise_yaw = 3.0;                ///< rad/s^2 per sqrt(Hz)
+  double spin_noise_yaw = 5.0;                ///< rad/s^2 per sqrt(Hz)
   double spin_decay_s = 0.3;                  ///< body rates decay in prediction
   double gate_chi2 = 18.0;                    ///< Mahalanobis gate of one centroid, 2 degrees of freedom
   double reacquire_after_s = 0.05;  ///< a longer gap ends in a new acquisition, never in one linear update

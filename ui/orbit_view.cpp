@@ -26,7 +26,7 @@ void OrbitView::look(SceneViewpoint viewpoint) {
   const double half = std::tan(0.5 * kFieldOfView);
   switch (viewpoint) {
     case SceneViewpoint::kFollow:
-      azimuth_ = toRadians(-58);
+      azimuth_ = toRadians(-65);
       elevation_ = toRadians(20);
       distance_ = 2.7;
       break;
@@ -37,10 +37,10 @@ void OrbitView::look(SceneViewpoint viewpoint) {
       focus_.setZero();
       break;
     case SceneViewpoint::kIso:
-      azimuth_ = toRadians(-52);
-      elevation_ = toRadians(28);
-      distance_ = 0.72 * reach_ / half;
-      focus_ = Eigen::Vector3d(0.0, 0.0, 0.5);
+      azimuth_ = toRadians(-105);
+      elevation_ = toRadians(20);
+      distance_ = 0.85 * reach_ / half;
+      focus_ = Eigen::Vector3d(0.0, 0.0, 0.8);
       break;
   }
 }

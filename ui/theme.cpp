@@ -37,6 +37,7 @@ QMenu::item:disabled { color: #4f5c6a; }
 QMenu::separator { height: 1px; background: #232c38; margin: 4px 8px; }
 QStatusBar { background: #0e1319; border-top: 1px solid #1c242e; color: #8a98a8; }
 QStatusBar::item { border: 0; }
+QDialog { background: #141b24; border: 1px solid #2a3441; }
 QToolTip { background: #18202a; color: #d6dee7; border: 1px solid #33404f; padding: 4px; }
 QScrollArea { border: 0; background: #10151c; }
 QScrollBar:vertical { background: transparent; width: 9px; margin: 0; }

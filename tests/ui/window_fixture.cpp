@@ -1,6 +1,7 @@
 #include "tests/ui/window_fixture.h"
 
 #include <QPushButton>
+#include <QToolButton>
 
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
@@ -46,6 +47,12 @@ bool WindowTest::usesCamera(int camera) const {
 
 bool WindowTest::reaches(FlightPhase phase) {
   return eventually([this, phase] { return snapshot().phase == phase; });
+}
+
+void WindowTest::clickView(const QString& accessible_name) {
+  for (QToolButton* button : window_->findChildren<QToolButton*>())
+    if (button->accessibleName() == accessible_name) return click(button);
+  FAIL() << "no button " << accessible_name.toStdString();
 }
 
 void WindowTest::takeOffByMouse() {

@@ -14,7 +14,7 @@ namespace helical {
 /// The real window on the real engine with the shipped rig, in still air.
 class WindowTest : public testing::Test {
  protected:
-  static constexpr int kPatienceMs = 120'000;  ///< for anything that must happen; no measure of speed
+  static constexpr int kPatienceMs = 60'000;  ///< for anything that must happen; no measure of speed
 
   void open(bool images, bool auto_take_off = false);
   void open(const RigConfig& rig, bool auto_take_off = false);
@@ -29,6 +29,9 @@ class WindowTest : public testing::Test {
   bool usesCamera(int camera) const;
   bool reaches(FlightPhase phase);
   void click(QWidget* button) { QTest::mouseClick(button, Qt::LeftButton); }
+  /// As the display server would: the key goes to the window, not to a widget.
+  void press(Qt::Key key) { QTest::keyClick(window_->windowHandle(), key); }
+  void clickView(const QString& accessible_name);
   void takeOffByMouse();
 
   std::unique_ptr<Engine> engine_;

@@ -50,13 +50,13 @@ TEST_F(WindowPictures, TheStatesOfAFlight) {
 
   click(window_->cameras().pane(1).hideButton());
   ASSERT_TRUE(eventually([this] { return window_->cameras().pane(1).cameraHidden(); }));
-  window_->scene().look(SceneViewpoint::kIso);
+  ASSERT_NO_FATAL_FAILURE(clickView("Iso view"));
   ASSERT_NO_FATAL_FAILURE(waitForScene());
   save("camera_2_hidden");
 
-  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  press(Qt::Key_Escape);
   ASSERT_TRUE(eventually([this] { return window_->topBar().readiness() == "Cut"; }));
-  window_->scene().look(SceneViewpoint::kTop);
+  ASSERT_NO_FATAL_FAILURE(clickView("Top view"));
   ASSERT_NO_FATAL_FAILURE(waitForScene());
   save("stopped");
 }
@@ -77,7 +77,7 @@ TEST_F(WindowPictures, SixteenCamerasWithoutImages) {
   }
   open(rig);
   ASSERT_TRUE(eventually([this] { return snapshot().pose_known && usesCamera(kMaxCameras - 1); }));
-  window_->scene().look(SceneViewpoint::kIso);
+  ASSERT_NO_FATAL_FAILURE(clickView("Iso view"));
   ASSERT_NO_FATAL_FAILURE(waitForScene());
   save("sixteen_cameras");
 }

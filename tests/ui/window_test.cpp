@@ -93,11 +93,12 @@ TEST_F(WindowTest, DigitsHideAndShowCameras) {
   open(false);
   ASSERT_TRUE(eventually([this] { return usesCamera(0); }));
   window_->activateWindow();
-  QTest::keyClick(window_.get(), Qt::Key_1);
+  ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get(), kPatienceMs)) << "shortcuts need an active window";
+  press(Qt::Key_1);
   EXPECT_TRUE(eventually([this] { return snapshot().cameras[0].hidden && !usesCamera(0); }));
   // The menu's tick follows the engine; until then the key would ask for the same again.
   ASSERT_TRUE(eventually([this] { return window_->cameras().pane(0).cameraHidden(); }));
-  QTest::keyClick(window_.get(), Qt::Key_1);
+  press(Qt::Key_1);
   EXPECT_TRUE(eventually([this] { return !snapshot().cameras[0].hidden && usesCamera(0); }));
 }
 

@@ -92,6 +92,7 @@ void FlightPlots::addSeries(int index) {
   name->setText(tr(style.name));
   name->setFont(theme::uiFont(8, QFont::DemiBold));
   name->setColor(theme::kText);
+  name->setBrush(QColor(16, 21, 28, 190));
 }
 
 void FlightPlots::addTick(const EngineSnapshot& tick) {

@@ -37,7 +37,7 @@ constexpr int kTickMs = 16;
 // In timer ticks. Numbers that change faster than this cannot be read.
 constexpr std::uint64_t kPictureEvery = 2;
 constexpr std::uint64_t kSceneEvery = 3;
-constexpr std::uint64_t kPlotsEvery = 4;
+constexpr std::uint64_t kPlotsEvery = 5;
 constexpr std::uint64_t kNumbersEvery = 6;
 
 QWidget* framed(QWidget* content) {
@@ -267,7 +267,7 @@ void MainWindow::arrangeDocks() {
   // Three 4:3 pictures above each other fill the height; more cameras get more width.
   const int per_camera = (height() - 110) / std::clamp(cameras_->count(), 1, 3) - 32;
   const int wanted = cameras_->count() > 3 ? width() * 2 / 5 : per_camera * 4 / 3;
-  const int cameras_width = std::clamp(wanted, 300, width() * 2 / 5);
+  const int cameras_width = std::clamp(wanted, std::min(360, width() * 23 / 100), width() * 2 / 5);
   resizeDocks({cameras_dock_, flight_dock_}, {cameras_width, 278}, Qt::Horizontal);
   resizeDocks({plots_dock_}, {height() * 28 / 100}, Qt::Vertical);
   const int flight_height = flight_->sizeHint().height() + 28;

@@ -33,7 +33,7 @@ void OrbitView::look(SceneViewpoint viewpoint) {
     case SceneViewpoint::kTop:
       azimuth_ = toRadians(-90);
       elevation_ = kHighest;
-      distance_ = 1.1 * reach_ / half;
+      distance_ = reach_ + 1.1 * reach_ / half;  // the cameras are about as high as they are far
       focus_.setZero();
       break;
     case SceneViewpoint::kIso:

@@ -37,6 +37,8 @@ constexpr int kTickMs = 16;
 // In timer ticks. Numbers that change faster than this cannot be read.
 constexpr std::uint64_t kPictureEvery = 2;
 constexpr std::uint64_t kSceneEvery = 3;
+// Setting up OpenGL takes a whole core for a moment: not while the cameras take their background.
+constexpr TimeNs kSceneFrom = kNanosecondsPerSecond;
 constexpr std::uint64_t kPlotsEvery = 5;
 constexpr std::uint64_t kNumbersEvery = 6;
 
@@ -298,7 +300,7 @@ void MainWindow::tick() {
   }
   if (ticks_ % kPictureEvery == 0) fetchPictures();
   const EngineSnapshot& snapshot = engine_->snapshot();
-  if (ticks_ % kSceneEvery == 0 && snapshot.tick > 0) scene_->show(snapshot);
+  if (ticks_ % kSceneEvery == 0 && snapshot.time > kSceneFrom) scene_->show(snapshot);
   if (ticks_ % kPlotsEvery == 1) plots_->redraw(snapshot.time);
   if (ticks_ % kNumbersEvery == 1 && snapshot.tick > 0) showNumbers(snapshot);
   if (since_load_.elapsed() >= 1000) showLoad();

@@ -28,7 +28,7 @@ void OrbitView::look(SceneViewpoint viewpoint) {
     case SceneViewpoint::kFollow:
       azimuth_ = toRadians(-65);
       elevation_ = toRadians(20);
-      distance_ = 2.7;
+      distance_ = 2.3;
       break;
     case SceneViewpoint::kTop:
       azimuth_ = toRadians(-90);
@@ -39,8 +39,8 @@ void OrbitView::look(SceneViewpoint viewpoint) {
     case SceneViewpoint::kIso:
       azimuth_ = toRadians(-105);
       elevation_ = toRadians(20);
-      distance_ = 0.85 * reach_ / half;
-      focus_ = Eigen::Vector3d(0.0, 0.0, 0.8);
+      distance_ = 0.8 * reach_ / half;
+      focus_ = Eigen::Vector3d(0.0, 0.0, 0.9);
       break;
   }
 }

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <string>
 
+#include "app/detect.h"
 #include "app/fly.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
   app.add_option("--plan", plan, "Flight plan for the window: hover, waypoints, or a file");
   int exit_code = 0;
   helical::addFlyCommand(app, exit_code);
+  helical::addDetectCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

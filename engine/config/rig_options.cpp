@@ -69,6 +69,7 @@ constexpr OptionField<TrackerOptions> kTrackerFields[] = {
     {"spin_noise_tilt", &TrackerOptions::spin_noise_tilt},
     {"spin_noise_yaw", &TrackerOptions::spin_noise_yaw},
     {"spin_decay_s", &TrackerOptions::spin_decay_s},
+    {"centroid_bias_px", &TrackerOptions::centroid_bias_px},
     {"gate_chi2", &TrackerOptions::gate_chi2},
     {"reacquire_after_s", &TrackerOptions::reacquire_after_s},
 };

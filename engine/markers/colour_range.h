@@ -1,8 +1,10 @@
 #pragma once
 
-#include <opencv2/core.hpp>
-
 #include "engine/markers/marker_options.h"
+
+namespace cv {
+class Mat;
+}
 
 namespace helical {
 

@@ -6,7 +6,7 @@ namespace helical {
 struct MarkerOptions {
   int hue_low = 40;
   int hue_high = 80;        ///< smaller than `hue_low` wraps through red
-  int saturation_low = 90;  ///< 0..255
+  int saturation_low = 70;  ///< 0..255
   int saturation_high = 255;
   int value_low = 40;  ///< 0..255
   int value_high = 255;
@@ -16,8 +16,8 @@ struct MarkerOptions {
   int closing_px = 3;
   int minimum_area_px = 9;
   int maximum_area_px = 20000;
-  /// Standard deviation of a fully visible ball's centroid per axis; measured, see tests/simulator.
-  double centroid_sigma_px = 0.15;
+  /// Standard deviation of a fully visible ball's centroid per axis; measured, see tests/pipeline.
+  double centroid_sigma_px = 0.10;
 };
 
 /// Throws Error(kInput) with the offending key when a value is out of its range.

@@ -58,8 +58,8 @@ void SceneHelicopter::build(const RigidTransform& camera_from_body, const Helico
 
 void SceneHelicopter::addBody() {
   addEllipsoid({0.020, 0, 0.002}, {0.088, 0.031, 0.036}, kWhite);
-  addEllipsoid({-0.055, 0, 0.012}, {0.050, 0.018, 0.020}, kCarbon);
-  addRod({-0.06, 0, 0.012}, {-0.225, 0, 0.024}, 0.0045, kCarbon);
+  addEllipsoid({-0.055, 0, 0.006}, {0.050, 0.016, 0.015}, kCarbon);
+  addRod({-0.06, 0, 0.008}, {-0.225, 0, 0.024}, 0.0045, kCarbon);
   addRod({-0.215, 0, -0.005}, {-0.232, 0, 0.066}, 0.0065, kOrange);
   addRod({-0.190, -0.045, 0.021}, {-0.190, 0.045, 0.021}, 0.0045, kOrange);
   addRod({0, 0, 0.03}, {0, 0, 0.178}, 0.0016, kSilver);

@@ -25,14 +25,14 @@ struct Bump {
 };
 
 /// Image-free observations: what the extractor makes of rendered images, as numbers. Fitted to the renderer;
-/// tests/simulator compares the two.
+/// tests/pipeline compares the two.
 struct ObservationNoise {
-  double sigma_px = 0.13;        ///< per axis, frame to frame
-  double bias_px = 0.08;         ///< per axis, of an offset that changes slowly
-  double bias_time_s = 0.3;      ///< correlation time of that offset
-  double dropout = 0.002;        ///< a visible ball is not found
-  double false_markers = 0.001;  ///< per frame: a region somewhere in the image
-  double outliers = 0.0;         ///< share of centroids thrown up to 80 px aside
+  double sigma_px = 0.08;         ///< per axis, frame to frame
+  double bias_px = 0.08;          ///< per axis, of an offset that changes slowly
+  double bias_time_s = 1.0;       ///< correlation time of that offset
+  double dropout = 0.0005;        ///< a visible ball is not found
+  double false_markers = 0.0001;  ///< per frame: a region somewhere in the image
+  double outliers = 0.0;          ///< share of centroids thrown up to 80 px aside
 };
 
 struct SimulationOptions {

@@ -16,10 +16,10 @@ constexpr int kProbation = 2;  // frames that a rejected feature has to agree be
 constexpr double kDoubtfulAgreement = 0.6;  // of the centroids in view: below, the pose itself is in doubt
 constexpr double kAgreementGain = 0.05;     // an average over some 20 observations
 constexpr double kForeseen = 0.3;           // s, over which the motion model is better than standing still
-constexpr double kPartlyHidden =
-    0.8;  // share of the expected area below which a ball counts as partly hidden
-constexpr double kHiddenShift =
-    0.85;  // centroid shift of a cut disc over its radius, per share of area missing
+// A partly hidden ball's centre of gravity is off by this many radii (standard deviation) per share of area
+// missing: measured on rendered images.
+constexpr double kHiddenShift = 0.48;
+constexpr TimeNs kRecentView = 100 * kNanosecondsPerMillisecond;
 constexpr double kGapSpeedLimit = 1.5;  // m/s, of the velocity guessed across a gap
 
 using MeasurementMatrix =
@@ -45,16 +45,27 @@ Tracker::Tracker(const TrackerOptions& options, const MarkerLayout& markers, std
       markers_(markers),
       cameras_(std::move(cameras)),
       standing_height_(standing_height),
-      model_(options),
+      model_(options.spin_decay_s),
+      noise_({options.acceleration_noise_lateral, options.acceleration_noise_vertical,
+              options.spin_noise_tilt, options.spin_noise_yaw}),
       acquisition_(markers, cameras_) {}
 
 TrackedState Tracker::predict(TimeNs time, bool airborne) const {
   TrackedState result{time, state_, Matrix6d::Identity()};
   if (!acquired_) return result;
   Matrix12d covariance = covariance_;
-  model_.propagate(result.state, &covariance, toSeconds(time - time_), airborne);
-  result.pose_covariance = poseBlock(covariance);
+  model_.propagate(result.state, covariance, noise_.noise(), toSeconds(time - time_), airborne);
+  result.pose_covariance = poseBlock(covariance) + biasCovariance(time);
   return result;
+}
+
+Matrix6d Tracker::biasCovariance(TimeNs time) const {
+  Matrix6d information = Matrix6d::Identity();
+  for (std::size_t c = 0; c < cameras_.size(); ++c)
+    if (tracks_[c].selected_count > 0 && time - tracks_[c].exposure < kRecentView)
+      information += view_information_[c];
+  return options_.centroid_bias_px * options_.centroid_bias_px *
+         information.ldlt().solve(Matrix6d::Identity());
 }
 
 void Tracker::update(const Observation& observation, std::span<const CameraEstimate> cameras,
@@ -74,18 +85,21 @@ void Tracker::update(const Observation& observation, std::span<const CameraEstim
     else if (!acquired_ || gap)
       return;
   }
-  model_.propagate(state_, &covariance_, toSeconds(observation.exposure - time_), airborne);
+  model_.propagate(state_, covariance_, noise_.noise(), toSeconds(observation.exposure - time_), airborne);
   time_ = observation.exposure;
 
   Features features;
   predictFeatures(observation, cameras[index], features);
   nameFeatures(observation, features, track);
   select(observation.camera, cameras[index], features);
-  if (correct(cameras[index], features)) {
+  if (correct(cameras[index], features, airborne)) {
     last_update_ = observation.exposure;
     last_good_ = state_;
   }
   report(observation, cameras[index], features, track);
+  view_information_[index].setZero();
+  for (const Feature& feature : features)
+    if (feature.selected) view_information_[index] += feature.d_pose.transpose() * feature.d_pose;
   const int in_view = std::min(observation.count, markers_.count());
   if (in_view >= 2)
     agreement_ += kAgreementGain * (static_cast<double>(track.selected_count) / in_view - agreement_);
@@ -99,7 +113,7 @@ PosePrior Tracker::priorAt(TimeNs time, bool airborne) const {
   }
   const double gap = toSeconds(time - last_update_);
   HelicopterState guess = last_good_;
-  model_.propagate(guess, nullptr, std::min(gap, kForeseen), airborne);
+  model_.propagate(guess, std::min(gap, kForeseen), airborne);
   prior.world_from_body = guess.world_from_body;
   prior.position_radius = 0.3 + 1.5 * gap;
   // A pose that does not explain what is seen may be turned any way.
@@ -142,6 +156,7 @@ void Tracker::restart(const PoseFit& fit, TimeNs time) {
   time_ = last_update_ = time;
   last_good_ = state_;
   agreement_ = 1.0;
+  noise_.reset();
 }
 
 void Tracker::predictFeatures(const Observation& observation, const CameraEstimate& estimate,
@@ -190,11 +205,9 @@ void Tracker::nameFeatures(const Observation& observation, Features& features, C
     feature.innovation = centroid.pixel - feature.prediction.pixel;
     feature.noise = centroid.covariance;
     const double expected_area = kPi * feature.prediction.radius_px * feature.prediction.radius_px;
-    const double share = centroid.area_px / expected_area;
-    if (share < kPartlyHidden) {
-      const double shift = kHiddenShift * (1.0 - share) * feature.prediction.radius_px;
-      feature.noise.diagonal().array() += shift * shift;
-    }
+    const double missing = std::max(0.0, 1.0 - centroid.area_px / expected_area);
+    const double shift = kHiddenShift * missing * feature.prediction.radius_px;
+    feature.noise.diagonal().array() += shift * shift;
     feature.selected = true;
     track.markers[m].observed = true;
     track.markers[m].pixel = centroid.pixel;
@@ -263,7 +276,7 @@ void Tracker::select(CameraId camera, const CameraEstimate& estimate, Features& 
   }
 }
 
-bool Tracker::correct(const CameraEstimate& estimate, const Features& features) {
+bool Tracker::correct(const CameraEstimate& estimate, const Features& features, bool airborne) {
   int n = 0;
   MeasurementJacobian h(2 * kMaxMarkers, 12);
   CameraJacobian hc(2 * kMaxMarkers, 6);
@@ -295,6 +308,10 @@ bool Tracker::correct(const CameraEstimate& estimate, const Features& features) 
   const Eigen::Matrix<double, 12, 1> change = gain * r.head(rows);
   if (!change.allFinite()) return false;
 
+  // What the corrections should amount to if the noise is right: the diagonal of K S K^T.
+  const Eigen::Matrix<double, 12, 1> expected = (gain * ph.transpose()).diagonal();
+  noise_.learn(change.segment<3>(kVelocityError), expected.segment<3>(kVelocityError),
+               change.segment<3>(kSpinError), expected.segment<3>(kSpinError), airborne);
   state_.world_from_body.translation += change.segment<3>(kPositionError);
   state_.velocity_in_world += change.segment<3>(kVelocityError);
   state_.world_from_body.rotation =

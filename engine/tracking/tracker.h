@@ -10,8 +10,10 @@
 #include "engine/helicopter/marker_layout.h"
 #include "engine/markers/observation.h"
 #include "engine/tracking/acquisition.h"
+#include "engine/tracking/adaptive_noise.h"
 #include "engine/tracking/motion_model.h"
 #include "engine/tracking/track.h"
+#include "engine/tracking/tracker_options.h"
 
 namespace helical {
 
@@ -36,7 +38,8 @@ class Tracker {
   bool acquired() const { return acquired_; }
   /// Exposure time of the last observation that was used.
   TimeNs lastUpdate() const { return last_update_; }
-  /// State and covariance at `time`, by the motion model.
+  /// State and covariance at `time`, by the motion model. The covariance includes what offsets of the
+  /// centroids that stay for many frames may do: averaging over frames does not lower it.
   TrackedState predict(TimeNs time, bool airborne) const;
   /// What was made of the newest observation of a camera.
   const CameraTrack& track(CameraId camera) const {
@@ -62,7 +65,8 @@ class Tracker {
   void nameFeatures(const Observation& observation, Features& features, CameraTrack& track) const;
   void select(CameraId camera, const CameraEstimate& estimate, Features& features);
   /// Kalman update with the selected features; false if it would not be finite.
-  bool correct(const CameraEstimate& estimate, const Features& features);
+  bool correct(const CameraEstimate& estimate, const Features& features, bool airborne);
+  Matrix6d biasCovariance(TimeNs time) const;
   void report(const Observation& observation, const CameraEstimate& estimate, const Features& features,
               CameraTrack& track) const;
 
@@ -71,6 +75,7 @@ class Tracker {
   std::vector<CameraModel> cameras_;
   double standing_height_;
   MotionModel model_;
+  AdaptiveNoise noise_;
   Acquisition acquisition_;
 
   bool acquired_ = false;
@@ -81,6 +86,7 @@ class Tracker {
   HelicopterState last_good_;
   double agreement_ = 1.0;  ///< running share of the centroids in view that fitted
   std::array<std::array<std::uint8_t, kMaxMarkers>, kMaxCameras> probation_{};
+  std::array<Matrix6d, kMaxCameras> view_information_;  ///< of a camera's newest selected features, per px^-2
   std::array<CameraTrack, kMaxCameras> tracks_{};
 };
 

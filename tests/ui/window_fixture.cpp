@@ -26,11 +26,11 @@ void WindowTest::open(const RigConfig& rig, bool auto_take_off) {
   plan.land_at_s = 1000.0;  // lands when the test says so
   WindowOptions options;
   options.auto_take_off = auto_take_off;
-  engine_ = std::make_unique<Engine>(rig, plan);
   window_ = std::make_unique<MainWindow>(rig, options);
   window_->fitToScreen();
   window_->show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get(), kPatienceMs));
+  engine_ = std::make_unique<Engine>(rig, plan);
   engine_->start();
   window_->attach(*engine_);
 }

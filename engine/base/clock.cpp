@@ -16,6 +16,10 @@ TimeNs read(clockid_t clock) {
 
 MonotonicClock::MonotonicClock() : origin_(read(CLOCK_MONOTONIC)) {}
 
+void MonotonicClock::restart() {
+  origin_ = read(CLOCK_MONOTONIC);
+}
+
 TimeNs MonotonicClock::now() const {
   return read(CLOCK_MONOTONIC) - origin_;
 }

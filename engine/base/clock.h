@@ -15,12 +15,14 @@ class Clock {
   virtual void sleepUntil(TimeNs time) = 0;
 };
 
-/// CLOCK_MONOTONIC, counted from the clock's construction.
+/// CLOCK_MONOTONIC, counted from the clock's construction or its last restart.
 class MonotonicClock final : public Clock {
  public:
   MonotonicClock();
   TimeNs now() const override;
   void sleepUntil(TimeNs time) override;
+  /// Begins again at 0. Only while no other thread uses the clock.
+  void restart();
 
  private:
   TimeNs origin_;

@@ -35,6 +35,8 @@ HullOrder convexHull(std::span<const Eigen::Vector2d> points) {
 
   HullOrder hull;
   hull.count = n <= 1 ? n : k - 1;  // the chain ends where it began
+  // All points in one place: nothing turns, and the chain went there and back.
+  if (hull.count == 2 && points[chain[0]] == points[chain[1]]) hull.count = 1;
   std::copy_n(chain.begin(), hull.count, hull.index.begin());
   return hull;
 }

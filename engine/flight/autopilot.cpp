@@ -75,6 +75,10 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   output.safety = supervisor_.state;
   output.failsafes = supervisor_.failsafes;
   output.set_point = follower_.setPoint();
+  if (phase_ < FlightPhase::kFlying) {
+    output.set_point.position_in_world = position;
+    output.set_point.yaw = yawOf(input.state.world_from_body.rotation);
+  }
   output.pad_height = pad_height_;
   output.airborne = phase_ == FlightPhase::kFlying || phase_ == FlightPhase::kLanding;
   output.hovering = phase_ == FlightPhase::kFlying && follower_.atFirstWaypoint();

@@ -132,7 +132,7 @@ struct Engine::Implementation {
 
   const RigConfig rig;
   const FlightPlan plan;
-  std::shared_ptr<Clock> clock;
+  std::shared_ptr<MonotonicClock> clock;
   std::array<PictureTap, kMaxCameras> taps;
   RigHardware hardware;
   FlightLoop loop;
@@ -262,6 +262,8 @@ bool Engine::running() const {
 void Engine::start() {
   if (running()) return;
   Implementation& i = *implementation_;
+  // Opening devices and drawing the simulated rooms took time that is not part of the flight.
+  i.clock->restart();
   i.threads.emplace_back([&i](const std::stop_token& stop) { i.send(stop); });
   i.threads.emplace_back([&i](const std::stop_token& stop) { i.fly(stop); });
   for (std::size_t c = 0; c < i.hardware.sources.size(); ++c)

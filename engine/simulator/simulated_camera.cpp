@@ -24,7 +24,10 @@ SimulatedCamera::SimulatedCamera(CameraId camera, const CameraModel& model,
       disturbances_(camera, options, camera_from_world,
                     randomStream(options.seed, RandomStream::kKnocks, camera)),
       exposures_(options, randomStream(options.seed, RandomStream::kExposures, camera)),
-      renderer_(model, markers, sceneOptions(camera, options)) {}
+      renderer_(model, markers, sceneOptions(camera, options)) {
+  // Draws the room now: the first frame must not be late.
+  renderer_.render(disturbances_.cameraFromWorld(0.0), std::nullopt, 0.0);
+}
 
 void SimulatedCamera::expose(TimeNs now) {
   world_->advanceTo(now);

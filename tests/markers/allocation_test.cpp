@@ -1,42 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "engine/base/random.h"
 #include "engine/markers/extractor.h"
 #include "tests/markers/scenes.h"
-
-namespace {
-
-long g_allocations = 0;
-
-void* counted(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "tests/support/allocation_counter.h"
 
 namespace helical {
 namespace {
@@ -54,7 +21,7 @@ TEST(ExtractorAllocation, NoneAfterTheFirstFrameOfASize) {
   Extractor extractor(options);
   Observation found;
   extractor.extract(empty.view(), found);
-  const long before = g_allocations;
+  const long before = test::allocations();
   for (int i = 0; i < 3; ++i) {
     extractor.extract(empty.view(), found);
     extractor.extract(clutter.view(), found);
@@ -62,7 +29,7 @@ TEST(ExtractorAllocation, NoneAfterTheFirstFrameOfASize) {
   }
   extractor.takeBackground();
   extractor.extract(empty.view(), found);
-  EXPECT_EQ(g_allocations, before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_TRUE(found.count == 0);
 }
 

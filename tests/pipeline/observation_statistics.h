@@ -10,17 +10,17 @@
 
 namespace helical {
 
-/// How observations differ from where the markers truly were: the yardstick by which image-free observations are
-/// compared with those from rendered images. One camera.
+/// How observations differ from where the markers truly were: the yardstick by which image-free observations
+/// are compared with those from rendered images. One camera.
 class ObservationStatistics {
  public:
   void add(const Observation& observation, const WorldSample& truth, const CameraModel& model,
            const RigidTransform& camera_from_world, const MarkerLayout& markers);
 
-  double rms() const;              ///< px per axis, of whole balls
-  double white() const;            ///< px per axis: the part that changes from frame to frame
-  double slow() const;             ///< px per axis: the rest
-  double dropoutShare() const;     ///< of the balls that should be seen
+  double rms() const;           ///< px per axis, of whole balls
+  double white() const;         ///< px per axis: the part that changes from frame to frame
+  double slow() const;          ///< px per axis: the rest
+  double dropoutShare() const;  ///< of the balls that should be seen
   double partlyHiddenShare() const;
   double falsePerFrame() const;
 

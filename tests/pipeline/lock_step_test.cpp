@@ -1,0 +1,100 @@
+#include "engine/pipeline/lock_step.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "engine/config/plan_file.h"
+#include "engine/config/resource_files.h"
+#include "tests/pipeline/flight_fixture.h"
+
+namespace helical {
+namespace {
+
+/// A digest of everything that a tick decides, down to the last bit.
+std::uint64_t digest(const EngineSnapshot& tick, std::uint64_t before) {
+  const auto mix = [&before](double value) {
+    before = (std::rotl(before, 5) ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15ULL;
+  };
+  for (const HelicopterState* state : {&tick.tracked.state, &tick.truth}) {
+    for (int i = 0; i < 3; ++i) mix(state->world_from_body.translation[i]);
+    for (int i = 0; i < 4; ++i) mix(state->world_from_body.rotation.coeffs()[i]);
+    for (int i = 0; i < 3; ++i) mix(state->velocity_in_world[i]);
+  }
+  for (int i = 0; i < 36; ++i) mix(tick.tracked.pose_covariance(i / 6, i % 6));
+  for (const double stick :
+       {tick.sticks.upper_rotor, tick.sticks.lower_rotor, tick.sticks.roll, tick.sticks.pitch})
+    mix(stick);
+  return before;
+}
+
+std::uint64_t fly(const RigConfig& rig, int ticks) {
+  LockStep flight(rig, loadPlan(planPath("hover")));
+  std::uint64_t result = 0;
+  OperatorCommands commands;
+  for (int i = 0; i < ticks; ++i) {
+    commands.take_off = i == 60;
+    result = digest(flight.tick(commands), result);
+  }
+  return result;
+}
+
+TEST(LockStep, RepeatsBitForBitForASeed) {
+  RigConfig rig = test::shippedRig("paper", 11);
+  rig.simulation.vary = 0.3;
+  EXPECT_EQ(fly(rig, 600), fly(rig, 600));
+  RigConfig other = rig;
+  other.simulation.seed = 12;
+  EXPECT_NE(fly(rig, 600), fly(other, 600));
+}
+
+TEST(LockStep, RepeatsBitForBitWithImages) {
+  RigConfig rig = test::shippedRig("paper", 11);
+  rig.simulation.images = true;
+  EXPECT_EQ(fly(rig, 180), fly(rig, 180));
+}
+
+TEST(LockStep, TimeMovesByTheControlPeriod) {
+  const RigConfig rig = test::shippedRig("paper", 1);
+  LockStep flight(rig, FlightPlan{});
+  TimeNs last = 0;
+  for (int i = 0; i < 60; ++i) {
+    const TimeNs now = flight.tick({}).time;
+    EXPECT_NEAR(toSeconds(now - last), 1.0 / 60.0, 0.0011);
+    last = now;
+  }
+  EXPECT_NEAR(toSeconds(last), 1.0, 0.0011);
+}
+
+TEST(LockStep, KillCutsTheSticksAtOnceAndForGood) {
+  LockStep flight(test::shippedRig("paper", 1), loadPlan(planPath("hover")));
+  OperatorCommands commands;
+  for (int i = 0; i < 400; ++i) {
+    commands.take_off = i == 60;
+    flight.tick(commands);
+  }
+  commands.kill = true;
+  EXPECT_EQ(flight.tick(commands).sticks, StickDemand{});
+  commands.kill = false;
+  commands.take_off = true;
+  for (int i = 0; i < 120; ++i) {
+    const EngineSnapshot& now = flight.tick(commands);
+    EXPECT_EQ(now.sticks, StickDemand{});
+    EXPECT_EQ(now.safety, SafetyState::kCut);
+  }
+}
+
+TEST(LockStep, AHiddenCameraIsNotUsed) {
+  LockStep flight(test::shippedRig("paper", 1), loadPlan(planPath("hover")));
+  for (int i = 0; i < 90; ++i) flight.tick({});
+  flight.hideCamera(cameraId(1), true);
+  flight.tick({});
+  const EngineSnapshot& now = flight.tick({});
+  EXPECT_TRUE(now.cameras[1].hidden);
+  EXPECT_EQ(now.cameras[1].track.selected_count, 0);
+  EXPECT_EQ(now.cameras[0].track.selected_count, 4);
+  EXPECT_GT(now.cameras[1].frames, 80u);
+}
+
+}  // namespace
+}  // namespace helical

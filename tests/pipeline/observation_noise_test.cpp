@@ -1,0 +1,81 @@
+// The image-free simulator against the rendered one: the same flight, the same yardstick.
+
+#include <gtest/gtest.h>
+
+#include "engine/config/plan_file.h"
+#include "engine/config/resource_files.h"
+#include "engine/pipeline/flight_loop.h"
+#include "engine/pipeline/output_loop.h"
+#include "engine/pipeline/rig_hardware.h"
+#include "tests/pipeline/flight_fixture.h"
+#include "tests/pipeline/observation_statistics.h"
+
+namespace helical {
+namespace {
+
+std::array<ObservationStatistics, 3> measure(bool images, std::uint64_t seed) {
+  RigConfig rig = test::shippedRig("calibrated", seed);
+  rig.simulation.images = images;
+  auto clock = std::make_shared<ManualClock>();
+  RigHardware hardware = openRig(rig, clock);
+  FlightLoop loop(rig, loadPlan(planPath("hover")));
+  OutputLoop output(*hardware.transmitter);
+  std::array<ObservationStatistics, 3> statistics;
+  Observation observation;
+  for (int ms = 1; ms < 16'000; ++ms) {
+    const TimeNs now = ms * kNanosecondsPerMillisecond;
+    clock->set(now);
+    for (auto& source : hardware.sources)
+      while (source->poll(observation)) {
+        const auto index = static_cast<std::size_t>(observation.camera.index());
+        const auto truth = hardware.world->at(observation.exposure);
+        if (truth && ms > 4'000)
+          statistics[index].add(observation, *truth, rig.cameras[index].model,
+                                *rig.cameras[index].camera_from_world, rig.markers_in_body);
+        loop.onObservation(observation, now);
+      }
+    if (ms % 17 != 0) continue;
+    OperatorCommands commands;
+    commands.take_off = ms == 17 * 60;
+    output.submit(loop.onTick(now, commands), now);
+    output.step(now);
+  }
+  return statistics;
+}
+
+TEST(ObservationNoise, ImageFreeIsLikeRendered) {
+  const auto rendered = measure(true, 1), simulated = measure(false, 1);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::printf(
+        "camera %zu: rms %.3f / %.3f px, white %.3f / %.3f, slow %.3f / %.3f, dropped %.4f / %.4f, "
+        "partly hidden %.4f / %.4f, false per frame %.5f / %.5f (rendered / simulated)\n",
+        c + 1, rendered[c].rms(), simulated[c].rms(), rendered[c].white(), simulated[c].white(),
+        rendered[c].slow(), simulated[c].slow(), rendered[c].dropoutShare(), simulated[c].dropoutShare(),
+        rendered[c].partlyHiddenShare(), simulated[c].partlyHiddenShare(), rendered[c].falsePerFrame(),
+        simulated[c].falsePerFrame());
+    EXPECT_NEAR(simulated[c].rms() / rendered[c].rms(), 1.0, 0.25);
+    EXPECT_NEAR(simulated[c].white() / rendered[c].white(), 1.0, 0.25);
+    EXPECT_NEAR(simulated[c].slow() / rendered[c].slow(), 1.0, 0.5);
+    EXPECT_NEAR(simulated[c].dropoutShare(), rendered[c].dropoutShare(), 0.003);
+    EXPECT_NEAR(simulated[c].partlyHiddenShare(), rendered[c].partlyHiddenShare(), 0.02);
+    EXPECT_NEAR(simulated[c].falsePerFrame(), rendered[c].falsePerFrame(), 0.003);
+  }
+}
+
+TEST(FlightsWithImages, LandAndHoverAsTheImageFreeOnes) {
+  std::vector<double> rendered, simulated;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RigConfig rig = test::shippedRig("paper", seed);
+    simulated.push_back(test::flyHover(rig).score.hoverHorizontal().value());
+    rig.simulation.images = true;
+    const test::Flown flown = test::flyHover(rig);
+    EXPECT_EQ(flown.outcome, "landed") << "seed " << seed;
+    rendered.push_back(flown.score.hoverHorizontal().value());
+  }
+  // Gusts rule the hover, and they are the same in both: the means may differ by what the noise adds, not
+  // more.
+  EXPECT_NEAR(test::median(rendered), test::median(simulated), 0.010);
+}
+
+}  // namespace
+}  // namespace helical

@@ -1,5 +1,7 @@
 #include "app/flight_report.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -33,8 +35,15 @@ json noCalibration() {
   return fields;
 }
 
+/// A camera's id as the rig file gives it: a number or a string.
+json idJson(const std::string& label) {
+  const bool number = label.size() < 10 && std::all_of(label.begin(), label.end(),
+                                                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  return number ? json(std::stoi(label)) : json(label);
+}
+
 json cameraJson(const CameraConfig& config, const CameraSnapshot& camera) {
-  return {{"id", config.label},
+  return {{"id", idJson(config.label)},
           {"calibrated", camera.estimate.status == CameraStatus::kCalibrated},
           {"frames", camera.frames},
           {"dropped", camera.dropped},

@@ -1,0 +1,21 @@
+"""Runs the helical binary as a user's script would."""
+
+import json
+import os
+import subprocess
+import sys
+
+BINARY = sys.argv[1] if len(sys.argv) > 1 else "helical"
+SOURCE = sys.argv[2] if len(sys.argv) > 2 else "."
+
+
+def run(*arguments, **options):
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    return subprocess.run([BINARY, *map(str, arguments)], capture_output=True, text=True, timeout=600,
+                          env=environment, **options)
+
+
+def run_json(*arguments):
+    """The one object on stdout; fails on anything else there."""
+    result = run(*arguments, "--json")
+    return result.returncode, json.loads(result.stdout)

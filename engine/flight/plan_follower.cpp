@@ -48,10 +48,11 @@ void PlanFollower::climbOrFollow(double dt, const Eigen::Vector3d& position) {
   target.z() += pad_height_;
   Eigen::Vector3d& reference = set_point_.position_in_world;
   if (!reached_first_) {
-    // Straight up first, over the place where it should hover.
-    reference.head<2>() = target.head<2>();
+    // Up first, over the place where it should hover.
+    const Eigen::Vector2d aside = target.head<2>() - reference.head<2>();
+    reference.head<2>() += aside * std::min(1.0, waypoint.speed * dt / std::max(aside.norm(), 1e-9));
     const bool runs_ahead = reference.z() - position.z() > kLongestLead;
-    if (!runs_ahead) reference.z() += std::min(plan_.climb_speed * dt, target.z() - reference.z());
+    if (!runs_ahead) reference.z() += std::clamp(target.z() - reference.z(), 0.0, plan_.climb_speed * dt);
     if (reference.z() < target.z() - 1e-9) {
       if (position.z() - pad_height_ > kYawFreeHeight)
         set_point_.yaw += std::clamp(wrapAngle(waypoint.yaw - set_point_.yaw), -kYawRate * dt, kYawRate * dt);

@@ -50,7 +50,7 @@ void Autopilot::enter(FlightPhase phase, TimeNs now) {
 AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   const Eigen::Vector3d& position = input.state.world_from_body.translation;
   const double height = position.z() - pad_height_;
-  take_off_pending_ |= input.commands.take_off;
+  take_off_pending_ = (take_off_pending_ || input.commands.take_off) && !input.commands.land;
 
   SupervisorConditions conditions;
   conditions.now = input.now;
@@ -150,8 +150,10 @@ StickDemand Autopilot::act(const AutopilotInput& input, double height) {
       return controller_.onGround(input.state, throttle_, dt);
     case FlightPhase::kLiftOff:
       // The skids let go before the torques balance: turning slowly there teaches the yaw trim, spinning does
-      // not.
-      if (std::abs(input.state.angular_velocity_in_body.z()) < kSlowTurn) throttle_ += kThrottleRamp * dt;
+      // not. A lift-off that nobody sees is not driven on.
+      if (input.pose_age_s <= safety_options_.coast_after_s &&
+          std::abs(input.state.angular_velocity_in_body.z()) < kSlowTurn)
+        throttle_ += kThrottleRamp * dt;
       return controller_.onGround(input.state, throttle_, dt);
     case FlightPhase::kFlying:
     case FlightPhase::kLanding: {

@@ -23,6 +23,7 @@ void validate(const FlightPlan& plan) {
           "give up to 0.5 m/s");
   require(plan.touchdown_speed > 0.0 && plan.touchdown_speed <= plan.descent_speed, "touchdown_speed",
           plan.touchdown_speed, "give at most the descent speed");
+  require(true, "land_at_s", plan.land_at_s, "give a time, or 0 to land after the last waypoint");
   if (plan.waypoints.empty())
     throw Error(ErrorKind::kInput, "the plan has no waypoint", {}, "give at least one: the place to hover");
   for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {

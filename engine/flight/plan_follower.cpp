@@ -53,12 +53,10 @@ void PlanFollower::climbOrFollow(double dt, const Eigen::Vector3d& position) {
     reference.head<2>() += aside * std::min(1.0, waypoint.speed * dt / std::max(aside.norm(), 1e-9));
     const bool runs_ahead = reference.z() - position.z() > kLongestLead;
     if (!runs_ahead) reference.z() += std::clamp(target.z() - reference.z(), 0.0, plan_.climb_speed * dt);
-    if (reference.z() < target.z() - 1e-9) {
-      if (position.z() - pad_height_ > kYawFreeHeight)
-        set_point_.yaw += std::clamp(wrapAngle(waypoint.yaw - set_point_.yaw), -kYawRate * dt, kYawRate * dt);
-      return;
-    }
-    reached_first_ = true;
+    if (position.z() - pad_height_ > kYawFreeHeight)
+      set_point_.yaw += std::clamp(wrapAngle(waypoint.yaw - set_point_.yaw), -kYawRate * dt, kYawRate * dt);
+    reached_first_ = reference.z() >= target.z() - 1e-9;
+    return;
   }
   const Eigen::Vector3d way = target - reference;
   const double distance = way.norm();

@@ -142,8 +142,10 @@ TEST(World, RotorsTurnAgainstEachOther) {
 }
 
 TEST(World, TippingOverIsACrash) {
-  World world(seeded(2), HelicopterParameters::xrb());
-  world.command({throttle(1.1).upper_rotor, throttle(1.1).lower_rotor, 1.0, 0.0}, fromSeconds(0.3));
+  HelicopterParameters lopsided = HelicopterParameters::xrb();
+  lopsided.thrust_offset_y = 0.1;
+  World world(seeded(2), lopsided);
+  world.command(throttle(1.1), fromSeconds(0.3));
   world.advanceTo(fromSeconds(10.0));
   EXPECT_TRUE(world.verdict().crashed);
   EXPECT_STREQ(world.verdict().reason, "tipped over");

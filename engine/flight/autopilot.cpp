@@ -141,25 +141,23 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
 
 StickDemand Autopilot::act(const AutopilotInput& input, double height) {
   const double dt = 1.0 / control_.rate_hz;
+  const bool blind = input.pose_age_s > safety_options_.coast_after_s;
   switch (phase_) {
     case FlightPhase::kIdle:
     case FlightPhase::kOff:
       return {};
     case FlightPhase::kSpinUp:
-      throttle_ = std::min(kSpinUpThrottle, throttle_ + kSpinUpThrottle / kSpinUpTime * dt);
+      if (!blind) throttle_ = std::min(kSpinUpThrottle, throttle_ + kSpinUpThrottle / kSpinUpTime * dt);
       return controller_.onGround(input.state, throttle_, dt);
     case FlightPhase::kLiftOff:
       // The skids let go before the torques balance: turning slowly there teaches the yaw trim, spinning does
       // not. A lift-off that nobody sees is not driven on.
-      if (input.pose_age_s <= safety_options_.coast_after_s &&
-          std::abs(input.state.angular_velocity_in_body.z()) < kSlowTurn)
+      if (!blind && std::abs(input.state.angular_velocity_in_body.z()) < kSlowTurn)
         throttle_ += kThrottleRamp * dt;
       return controller_.onGround(input.state, throttle_, dt);
     case FlightPhase::kFlying:
     case FlightPhase::kLanding: {
-      const bool blind = input.pose_age_s > safety_options_.coast_after_s;
-      if (was_blind_ && !blind && input.pose_age_s <= safety_options_.coast_after_s)
-        follower_.resetTo(input.state.world_from_body.translation);
+      if (was_blind_ && !blind) follower_.resetTo(input.state.world_from_body.translation);
       was_blind_ = blind;
       return blind ? flyBlind(input) : flySighted(input, height);
     }

@@ -36,10 +36,14 @@ bool distinct(const RigidTransform& a, const RigidTransform& b) {
          a.rotation.angularDistance(b.rotation) > kDistinctAngle;
 }
 
+/// But for the heading.
 bool within(const RigidTransform& pose, const PosePrior& prior) {
   return (pose.translation - prior.world_from_body.translation).norm() <= prior.position_radius &&
-         tiltOf(pose.rotation) <= prior.tilt_limit &&
-         std::abs(wrapAngle(yawOf(pose.rotation) - yawOf(prior.world_from_body.rotation))) <= prior.yaw_range;
+         tiltOf(pose.rotation) <= prior.tilt_limit;
+}
+
+bool headsWithin(const RigidTransform& pose, const PosePrior& prior) {
+  return std::abs(wrapAngle(yawOf(pose.rotation) - yawOf(prior.world_from_body.rotation))) <= prior.yaw_range;
 }
 
 }  // namespace
@@ -47,13 +51,16 @@ bool within(const RigidTransform& pose, const PosePrior& prior) {
 struct Acquisition::Best {
   PoseFit fit;
   double cost = 1e300;
+  double misfit = 1e300;     ///< the cost without what the prior says
   double runner_up = 1e300;  ///< cost of the best pose that is distinctly different
+  double beyond = 1e300;     ///< misfit of the best pose that heads out of the yaw range
 
-  void offer(const PoseFit& other, double other_cost) {
+  void offer(const PoseFit& other, double other_misfit, double other_cost) {
     const bool different = cost < 1e300 && distinct(other.world_from_body, fit.world_from_body);
     if (other_cost < cost) {
       if (different) runner_up = std::min(runner_up, cost);
       fit = other;
+      misfit = other_misfit;
       cost = other_cost;
     } else if (different) {
       runner_up = std::min(runner_up, other_cost);
@@ -86,7 +93,8 @@ std::optional<PoseFit> Acquisition::attempt(TimeNs time, std::span<const CameraE
 
   Best best;
   consider(prior.world_from_body, prior, best);
-  for (double turn = kYawStep; turn <= std::min(prior.yaw_range, kPi); turn += kYawStep) {
+  // All around: a helicopter that was put down the wrong way must not pass for a badly fitting right way.
+  for (double turn = kYawStep; turn <= kPi; turn += kYawStep) {
     for (const double sign : {-1.0, 1.0}) {
       RigidTransform turned = prior.world_from_body;
       turned.rotation = expSO3({0.0, 0.0, sign * turn}) * turned.rotation;
@@ -96,7 +104,9 @@ std::optional<PoseFit> Acquisition::attempt(TimeNs time, std::span<const CameraE
   for (int v = 0; v < view_count_; ++v) considerHull(views_[static_cast<std::size_t>(v)], prior, best);
 
   const int needed = std::max(kFewestInliers, static_cast<int>(std::ceil(kExplainedShare * possible_)));
-  if (best.fit.inliers < needed || best.runner_up - best.cost < kClearLead) return std::nullopt;
+  if (best.fit.inliers < needed || best.runner_up - best.cost < kClearLead ||
+      best.misfit - best.beyond > kClearLead)
+    return std::nullopt;
   return best.fit;
 }
 
@@ -125,7 +135,10 @@ void Acquisition::consider(const RigidTransform& hypothesis, const PosePrior& pr
   if (!fit.ok || !within(fit.world_from_body, prior)) return;
   const double misfit =
       2.0 * fit.inliers * fit.rms_px * fit.rms_px + (possible_ - fit.inliers) * kInlierPx * kInlierPx;
-  best.offer(fit, misfit + unlikeliness(fit.world_from_body, prior));
+  if (headsWithin(fit.world_from_body, prior))
+    best.offer(fit, misfit, misfit + unlikeliness(fit.world_from_body, prior));
+  else
+    best.beyond = std::min(best.beyond, misfit);
 }
 
 void Acquisition::considerHull(const NamedView& view, const PosePrior& prior, Best& best) {
@@ -146,7 +159,6 @@ void Acquisition::considerHull(const NamedView& view, const PosePrior& prior, Be
   // down.
   PosePrior wider = prior;
   wider.position_radius += 0.2;
-  wider.yaw_range += 0.2;
   wider.tilt_limit += 0.2;
   const RigidTransform world_from_camera = view.camera_from_world.inverse();
   const bool from_above = world_from_camera.translation.z() > prior.world_from_body.translation.z();

@@ -24,10 +24,11 @@ struct PosePrior {
 };
 
 /// Finds the helicopter from centroids without names: on the pad at the start, and after every gap in flight.
-/// Hypotheses come from the prior (turned in steps over its yaw range) and from each camera's hull of four or
-/// more centroids: every cyclic shift against the layout's hull, both poses of the planar problem. Each is
-/// fitted to all cameras with names by the nearest reprojection; the best robust cost wins, if no distinctly
-/// different pose comes near it. Allocates nothing after construction. One thread.
+/// Hypotheses come from the prior (turned in steps all around) and from each camera's hull of four or more
+/// centroids: every cyclic shift against the layout's hull, both poses of the planar problem. Each is fitted
+/// to all cameras with names by the nearest reprojection; the best robust cost wins, if no distinctly
+/// different pose comes near it and none beyond the yaw range fits clearly better. Allocates nothing after
+/// construction. One thread.
 class Acquisition {
  public:
   Acquisition(const MarkerLayout& markers, std::vector<CameraModel> cameras);

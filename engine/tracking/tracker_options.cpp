@@ -1,5 +1,6 @@
 #include "engine/tracking/tracker_options.h"
 
+#include <cmath>
 #include <string>
 
 #include "engine/base/error.h"
@@ -8,7 +9,7 @@ namespace helical {
 namespace {
 
 void requirePositive(double value, const char* key) {
-  if (!(value > 0.0))
+  if (!(value > 0.0) || !std::isfinite(value))
     throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
                 "give a number above 0");
 }

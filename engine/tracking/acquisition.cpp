@@ -21,6 +21,7 @@ constexpr double kTiltSigma = 0.3;          // rad
 constexpr double kDistinctDistance = 0.05;  // m
 constexpr double kDistinctAngle = 0.35;     // rad
 constexpr double kClearLead = 6.0;          // cost by which the best pose must lead any other
+constexpr double kBeyondLead = 2.0;  // misfit by which a pose beyond the yaw range shows the others wrong
 constexpr double kYawStep = toRadians(15.0);
 
 /// What the prior says against a pose, in the units of squared pixels over one pixel's variance.
@@ -105,7 +106,7 @@ std::optional<PoseFit> Acquisition::attempt(TimeNs time, std::span<const CameraE
 
   const int needed = std::max(kFewestInliers, static_cast<int>(std::ceil(kExplainedShare * possible_)));
   if (best.fit.inliers < needed || best.runner_up - best.cost < kClearLead ||
-      best.misfit - best.beyond > kClearLead)
+      best.misfit - best.beyond > kBeyondLead)
     return std::nullopt;
   return best.fit;
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/detect.h"
+#include "app/experiment.h"
 #include "app/fly.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   helical::addFlyCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
+  helical::addExperimentCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace helical {
+
+/// Adds `helical experiment`, the group of studies over many seeds.
+void addExperimentCommand(CLI::App& app, int& exit_code);
+
+/// Adds `correspondence` to the group: labellings, time and success of naming centroids over random views.
+/// Sets `exit_code` to 1 when theorem 1's bound was broken.
+void addCorrespondenceExperiment(CLI::App& experiments, int& exit_code);
+
+}  // namespace helical

@@ -13,16 +13,15 @@ namespace {
 
 constexpr double kAfterwardsS = 0.5;  // watched after the flight has ended
 
-/// The operator of a headless flight: starts the plan once the pose is known, and knows when it is over.
+/// The operator of a headless flight: orders the take-off once the pose is known, and knows when it is over.
 class Operator {
  public:
-  Operator(const FlightPlan& plan, double limit_s) : plan_(plan), limit_s_(limit_s) {}
+  explicit Operator(double limit_s) : limit_s_(limit_s) {}
 
   bool wantsTakeOff(const EngineSnapshot& now) {
     if (ordered_ || !now.pose_known) return false;
-    if (pose_since_ < 0) pose_since_ = now.time;
-    ordered_ = toSeconds(now.time - pose_since_) >= plan_.start_delay_s;
-    return ordered_;
+    ordered_ = true;
+    return true;
   }
 
   bool isOver(const EngineSnapshot& now) {
@@ -35,10 +34,8 @@ class Operator {
   }
 
  private:
-  const FlightPlan& plan_;
   double limit_s_;
   bool ordered_ = false;
-  TimeNs pose_since_ = -1;
   TimeNs ended_ = -1;
 };
 
@@ -71,7 +68,7 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const FlightProgress& 
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
                     const FlightProgress& progress) {
   FlightRun run;
-  Operator pilot(plan, limit_s);
+  Operator pilot(limit_s);
   if (realtime) {
     Engine engine(rig, plan);
     const MonotonicClock stopwatch;

@@ -19,8 +19,10 @@
 namespace helical {
 namespace {
 
-constexpr double kBeforeLiftOffS = 1.0;  // of a session: empty field, finding the pose, start delay
-constexpr double kLandingS = 6.0;        // descent and rotors off
+constexpr double kBeforeStartS = 0.5;  // of a session: empty field, finding the pose
+constexpr double kLandingS = 6.0;      // descent and rotors off
+constexpr double kLongestLiftOffS = 8.0;
+constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
 constexpr double kShortestFlightS = 6.0;
 constexpr double kTimeToSpare = 20.0;  // beyond the plan's landing before a flight counts as aborted
 
@@ -69,22 +71,25 @@ RigConfig configuredRig(const FlyArguments& arguments) {
 FlightPlan configuredPlan(const FlyArguments& arguments) {
   FlightPlan plan = loadPlan(planPath(arguments.plan));
   if (arguments.duration_s > 0.0) {
-    plan.land_at_s = arguments.duration_s - kBeforeLiftOffS - kLandingS;
+    plan.land_at_s = arguments.duration_s - kBeforeStartS - plan.start_delay_s - kLandingS;
     if (plan.land_at_s < kShortestFlightS)
-      throw Error(
-          ErrorKind::kInput, "--duration " + std::to_string(arguments.duration_s) + " is too short to fly",
-          {}, "give at least " + std::to_string(kBeforeLiftOffS + kLandingS + kShortestFlightS) + " seconds");
+      throw Error(ErrorKind::kInput,
+                  "--duration " + std::to_string(arguments.duration_s) + " is too short to fly", {},
+                  "give at least " +
+                      std::to_string(kBeforeStartS + plan.start_delay_s + kLandingS + kShortestFlightS) +
+                      " seconds");
   }
   return plan;
 }
 
 /// Longest time the plan can take: every leg at its speed, every hold.
 double plannedSeconds(const FlightPlan& plan) {
-  double total = kBeforeLiftOffS + kLandingS;
+  double total = kBeforeStartS + plan.start_delay_s + kLandingS;
   if (plan.land_at_s > 0.0) return total + plan.land_at_s;
-  total += 5.0 + plan.waypoints.front().position_above_pad.z() / plan.climb_speed;
+  total += kLongestLiftOffS + plan.waypoints.front().position_above_pad.z() / plan.climb_speed +
+           plan.waypoints.front().position_above_pad.head<2>().norm() / plan.waypoints.front().speed;
   for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {
-    total += plan.waypoints[i].hold_s + 3.0;
+    total += plan.waypoints[i].hold_s + kLongestTurnS;
     if (i > 0)
       total += (plan.waypoints[i].position_above_pad - plan.waypoints[i - 1].position_above_pad).norm() /
                plan.waypoints[i].speed;

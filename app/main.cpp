@@ -58,6 +58,13 @@ int main(int argc, char** argv) {
   app.add_option("--rig", rig_file, "Rig file for the window");
   app.add_option("--plan", plan, "Flight plan for the window: hover, waypoints, or a file");
   int exit_code = 0;
+  // These two belong to the window: a flight on another rig than the one that was named would be a bad
+  // surprise.
+  app.parse_complete_callback([&] {
+    if (!app.get_subcommands().empty() && (app.count("--rig") > 0 || app.count("--plan") > 0))
+      throw helical::Error(ErrorKind::kInput, "--rig and --plan before a sub-command are the window's", {},
+                           "give them behind the sub-command: helical fly --rig FILE");
+  });
   helical::addFlyCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
   helical::addExperimentCommand(app, exit_code);

@@ -1,7 +1,12 @@
 #include "app/window.h"
 
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
 #include <QApplication>
 #include <cstdio>
+#include <cstring>
 #include <future>
 #include <memory>
 
@@ -13,13 +18,31 @@
 namespace helical {
 namespace {
 
+/// Whether an X server answers on a local display such as ":0" or ":99.0"; displays elsewhere are left to Qt.
+bool localDisplayAnswers(const QByteArray& display) {
+  if (!display.startsWith(':')) return true;
+  const QByteArray number = display.mid(1).split('.').first();
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const QByteArray path = "/tmp/.X11-unix/X" + number;
+  if (path.size() >= static_cast<qsizetype>(sizeof address.sun_path)) return false;
+  std::memcpy(address.sun_path, path.constData(), static_cast<std::size_t>(path.size()));
+  const int server = socket(AF_UNIX, SOCK_STREAM, 0);
+  const bool answers = connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  close(server);
+  return answers;
+}
+
+/// Qt would abort the process instead of telling us.
 void requireDisplay() {
-  // Qt would abort the process instead of telling us.
-  if (!qEnvironmentVariableIsEmpty("DISPLAY") || !qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") ||
-      qEnvironmentVariableIsSet("QT_QPA_PLATFORM"))
-    return;
-  throw Error(ErrorKind::kSystem, "no display to open the window on", "DISPLAY is not set",
-              "fly without a window: helical fly; or give it a virtual display: xvfb-run -a helical");
+  const char* const cure =
+      "fly without a window: helical fly; or give it a virtual display: xvfb-run -a helical";
+  if (qEnvironmentVariableIsSet("QT_QPA_PLATFORM") && qgetenv("QT_QPA_PLATFORM") != "xcb") return;
+  const QByteArray display = qgetenv("DISPLAY");
+  if (display.isEmpty() && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY"))
+    throw Error(ErrorKind::kSystem, "no display to open the window on", "DISPLAY is not set", cure);
+  if (!display.isEmpty() && !localDisplayAnswers(display))
+    throw Error(ErrorKind::kSystem, "no X server answers", "DISPLAY=" + display.toStdString(), cure);
 }
 
 /// Debian's VTK knows GLX only. What the user has set stays.

@@ -25,7 +25,16 @@ constexpr double kSinkTime = 0.5;              // s until the open-loop descent 
 constexpr double kSinkThrust = -0.022;         // rotor fraction; a tenth of the weight
 constexpr double kHoldSinkThrust = -0.006;     // what the rotors' damping carries at that speed
 constexpr double kFadeThrust = 0.05;           // rotor fraction per second
-constexpr double kOldPad = 0.05;               // s: a fresher pose measures the pad's height
+constexpr double kOrderLasts =
+    5.0;                            // s beyond the plan's delay: an older take-off order is refused, not kept
+constexpr double kPadRadius = 0.5;  // m, within which it may start
+constexpr double kPadTolerance = 0.06;    // m, of its height above the ground
+constexpr double kStartTilt = 0.2;        // rad
+constexpr double kStartSpeed = 0.15;      // m/s
+constexpr double kLongestLiftOff = 20.0;  // s
+constexpr double kStillSpeed = 0.05;      // m/s
+constexpr double kStillTime = 1.5;        // s: what no longer sinks has landed, on whatever
+constexpr double kOldPad = 0.05;          // s: a fresher pose measures the pad's height
 
 }  // namespace
 
@@ -36,6 +45,7 @@ Autopilot::Autopilot(const FlightPlan& plan, const ControllerOptions& control,
       safety_options_(safety),
       controller_(control, nominal),
       follower_(plan),
+      standing_height_(nominal.standing_height),
       pad_height_(nominal.standing_height) {}
 
 double Autopilot::flightTime(TimeNs now) const {
@@ -50,7 +60,9 @@ void Autopilot::enter(FlightPhase phase, TimeNs now) {
 AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   const Eigen::Vector3d& position = input.state.world_from_body.translation;
   const double height = position.z() - pad_height_;
+  if (input.commands.take_off) ordered_at_ = input.now;
   take_off_pending_ = (take_off_pending_ || input.commands.take_off) && !input.commands.land;
+  refusal_ = nullptr;
 
   SupervisorConditions conditions;
   conditions.now = input.now;
@@ -60,7 +72,9 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   conditions.distance_from_pad = position.head<2>().norm();
   conditions.height_above_pad = height;
   conditions.flight_time_s = flightTime(input.now);
-  conditions.lift_off_failed = phase_ == FlightPhase::kLiftOff && throttle_ > kHighestThrottle;
+  conditions.lift_off_failed =
+      phase_ == FlightPhase::kLiftOff &&
+      (throttle_ > kHighestThrottle || toSeconds(input.now - phase_since_) > kLongestLiftOff);
   conditions.kill = input.commands.kill;
   supervisor_ = supervise(safety_options_, supervisor_, conditions);
 
@@ -80,6 +94,7 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
     output.set_point.yaw = yawOf(input.state.world_from_body.rotation);
   }
   output.pad_height = pad_height_;
+  output.refusal = refusal_;
   output.airborne = phase_ == FlightPhase::kFlying || phase_ == FlightPhase::kLanding;
   output.hovering = phase_ == FlightPhase::kFlying && follower_.atFirstWaypoint();
   return output;
@@ -87,18 +102,9 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
 
 void Autopilot::advance(const AutopilotInput& input, double height) {
   const double in_phase = toSeconds(input.now - phase_since_);
-  const double vertical_speed = input.state.velocity_in_world.z();
   switch (phase_) {
     case FlightPhase::kIdle:
-      if (!input.pose_known || input.pose_age_s > kOldPad) return;
-      pad_height_ = input.state.world_from_body.translation.z();
-      if (!take_off_pending_) return;
-      take_off_pending_ = false;
-      started_ = input.now;
-      controller_.reset();
-      throttle_ = 0.0;
-      rotors_off_ = false;
-      enter(FlightPhase::kSpinUp, input.now);
+      awaitStart(input);
       return;
     case FlightPhase::kSpinUp:
       if (input.commands.land)
@@ -127,9 +133,7 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
       return;
     }
     case FlightPhase::kLanding:
-      if (height < kTouchdownHeight && vertical_speed > -0.15 &&
-          follower_.setPoint().position_in_world.z() - pad_height_ < kTouchdownReference)
-        enter(FlightPhase::kTouchdown, input.now);
+      if (hasTouchedDown(input, height)) enter(FlightPhase::kTouchdown, input.now);
       return;
     case FlightPhase::kTouchdown:
       if (rotors_off_ || (height < 0.005 && in_phase > kSettleTime)) enter(FlightPhase::kOff, input.now);
@@ -137,6 +141,54 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
     case FlightPhase::kOff:
       return;
   }
+}
+
+const char* Autopilot::startObstacle(const AutopilotInput& input) const {
+  const RigidTransform& pose = input.state.world_from_body;
+  if (!input.pose_known || input.pose_age_s > kOldPad) return "the helicopter is not seen";
+  if (pose.translation.head<2>().norm() > kPadRadius ||
+      std::abs(pose.translation.z() - standing_height_) > kPadTolerance)
+    return "it does not stand on the pad";
+  if (tiltOf(pose.rotation) > kStartTilt) return "it does not stand upright";
+  if (input.state.velocity_in_world.norm() > kStartSpeed) return "it moves";
+  return nullptr;
+}
+
+void Autopilot::awaitStart(const AutopilotInput& input) {
+  const char* obstacle = startObstacle(input);
+  if (obstacle != nullptr) {
+    seen_since_ = -1;
+  } else {
+    if (seen_since_ < 0) seen_since_ = input.now;
+    pad_height_ = input.state.world_from_body.translation.z();
+  }
+  if (!take_off_pending_) return;
+  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < plan_.start_delay_s) {
+    // An order that waited long must not start the rotors of a helicopter that somebody is just carrying
+    // back.
+    if (obstacle == nullptr || toSeconds(input.now - ordered_at_) < kOrderLasts) return;
+    take_off_pending_ = false;
+    refusal_ = obstacle;
+    return;
+  }
+  take_off_pending_ = false;
+  started_ = input.now;
+  controller_.reset();
+  throttle_ = 0.0;
+  rotors_off_ = false;
+  enter(FlightPhase::kSpinUp, input.now);
+}
+
+bool Autopilot::hasTouchedDown(const AutopilotInput& input, double height) {
+  const double vertical_speed = input.state.velocity_in_world.z();
+  const double reference = follower_.setPoint().position_in_world.z() - pad_height_;
+  if (height < kTouchdownHeight && vertical_speed > -0.15 && reference < kTouchdownReference) return true;
+  if (!follower_.atLowerEnd() || std::abs(vertical_speed) > kStillSpeed) {
+    still_since_ = -1;
+    return false;
+  }
+  if (still_since_ < 0) still_since_ = input.now;
+  return toSeconds(input.now - still_since_) > kStillTime;
 }
 
 StickDemand Autopilot::act(const AutopilotInput& input, double height) {

@@ -32,6 +32,7 @@ struct AutopilotOutput {
   double pad_height = 0.0;  ///< of the body's origin standing on the pad, as seen before the start [m]
   bool hovering = false;    ///< has reached the first waypoint and is not landing
   bool airborne = false;
+  const char* refusal = nullptr;  ///< at the tick when a take-off order is given up: why; a literal
 };
 
 /// The flight procedure: rotors up, lift-off, plan, landing, rotors off; the supervisor stands before the
@@ -50,6 +51,9 @@ class Autopilot {
   StickDemand flyBlind(const AutopilotInput& input);
   StickDemand flySighted(const AutopilotInput& input, double height);
   void enter(FlightPhase phase, TimeNs now);
+  void awaitStart(const AutopilotInput& input);
+  const char* startObstacle(const AutopilotInput& input) const;
+  bool hasTouchedDown(const AutopilotInput& input, double height);
   double flightTime(TimeNs now) const;
 
   FlightPlan plan_;
@@ -62,11 +66,16 @@ class Autopilot {
   FlightPhase phase_ = FlightPhase::kIdle;
   TimeNs phase_since_ = 0;
   TimeNs started_ = 0;
-  double throttle_ = 0.0;  ///< in hover trims, while on the ground
+  double throttle_ = 0.0;   ///< in hover trims, while on the ground
+  double standing_height_;  ///< nominal
   double pad_height_ = 0.0;
   bool was_blind_ = false;
   bool rotors_off_ = false;
   bool take_off_pending_ = false;
+  TimeNs ordered_at_ = 0;    ///< the pending take-off
+  TimeNs seen_since_ = -1;   ///< on the ground, without a gap
+  TimeNs still_since_ = -1;  ///< while landing, with the reference at its lower end
+  const char* refusal_ = nullptr;
 };
 
 }  // namespace helical

@@ -75,6 +75,10 @@ void PlanFollower::climbOrFollow(double dt, const Eigen::Vector3d& position) {
   }
 }
 
+bool PlanFollower::atLowerEnd() const {
+  return set_point_.position_in_world.z() <= pad_height_ + kBelowGround + 1e-9;
+}
+
 void PlanFollower::descend(double dt, const Eigen::Vector3d& position) {
   const double height = position.z() - pad_height_;
   const double speed = height < kSlowHeight ? plan_.touchdown_speed : plan_.descent_speed;

@@ -22,6 +22,7 @@ class PlanFollower {
   /// Set-point to where the helicopter is, after a gap: no jump, no race back.
   void resetTo(const Eigen::Vector3d& position);
 
+  bool atLowerEnd() const;                     ///< of a landing: as far under the ground as it goes
   bool finished() const { return finished_; }  ///< every waypoint was held
   bool atFirstWaypoint() const { return reached_first_; }
   const SetPoint& setPoint() const { return set_point_; }

@@ -17,7 +17,7 @@ namespace {
 constexpr int kIterations = 12;
 constexpr double kUnseen = 1e12;
 
-/// Squared reprojection error and, on demand, the normal equations of the perturbation (rotation on the left
+/// Squared reprojection error and the normal equations of the perturbation (rotation on the left
 /// in the camera frame, then translation).
 double evaluate(const CameraModel& camera, std::span<const Eigen::Vector3d> points,
                 std::span<const Eigen::Vector2d> pixels, const RigidTransform& camera_from_body,
@@ -132,8 +132,7 @@ PlanarPoses solvePlanarPnp(const CameraModel& camera, std::span<const Eigen::Vec
   const Eigen::Vector3d centre_in_camera = best * centre;
   const Eigen::Vector3d sight = centre_in_camera.normalized();
   const Eigen::Vector3d normal = best.rotation * Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d mirrored = 2.0 * sight * sight.dot(normal) - normal;
-  if (mirrored.dot(sight) * normal.dot(sight) < 0.0) mirrored = -mirrored;
+  const Eigen::Vector3d mirrored = 2.0 * sight * sight.dot(normal) - normal;
   RigidTransform second;
   second.rotation = (Eigen::Quaterniond::FromTwoVectors(normal, mirrored) * best.rotation).normalized();
   second.translation = centre_in_camera - second.rotation * centre;

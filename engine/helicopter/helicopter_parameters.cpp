@@ -1,5 +1,6 @@
 #include "engine/helicopter/helicopter_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
@@ -22,16 +23,20 @@ HelicopterParameters drawOnce(HelicopterParameters p, double fraction, Random& r
         &p.swash_plate_range, &p.swash_plate_rate, &p.drag_coefficient, &p.drag_area_x, &p.drag_area_y,
         &p.drag_area_z, &p.lateral_damping, &p.vertical_damping, &p.ground_effect})
     *value *= 1.0 + fraction * random.uniform(-1.0, 1.0);
-  p.swash_plate_offset_roll = 0.3 * fraction * random.uniform(-1.0, 1.0);
-  p.swash_plate_offset_pitch = 0.3 * fraction * random.uniform(-1.0, 1.0);
-  p.thrust_offset_x = 0.01 * fraction * random.uniform(-1.0, 1.0);
-  p.thrust_offset_y = 0.01 * fraction * random.uniform(-1.0, 1.0);
+  p.swash_plate_offset_roll += 0.3 * fraction * random.uniform(-1.0, 1.0);
+  p.swash_plate_offset_pitch += 0.3 * fraction * random.uniform(-1.0, 1.0);
+  p.thrust_offset_x += 0.01 * fraction * random.uniform(-1.0, 1.0);
+  p.thrust_offset_y += 0.01 * fraction * random.uniform(-1.0, 1.0);
+  p.maximum_rotor_speed *= 1.0 + fraction * random.uniform(-1.0, 1.0);
+  p.rotor_radius *= 1.0 + fraction * random.uniform(-1.0, 1.0);
   return p;
 }
 
 bool canHover(const HelicopterParameters& p) {
   const double upper = p.hoverStickUpper(), lower = p.hoverStickLower();
-  return upper > 0.3 && upper < 0.8 && lower > 0.3 && lower < 0.8;
+  // With a fifth of the rotor speed to spare: half as much thrust again.
+  const bool has_reserve = 1.2 * std::max(p.hoverSpeedUpper(), p.hoverSpeedLower()) < p.maximum_rotor_speed;
+  return upper > 0.3 && upper < 0.8 && lower > 0.3 && lower < 0.8 && has_reserve;
 }
 
 }  // namespace

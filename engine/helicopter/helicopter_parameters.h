@@ -61,9 +61,9 @@ struct HelicopterParameters {
 
 inline constexpr double kGravity = 9.81;
 
-/// Draws every parameter uniformly within +-`fraction` of its nominal value, and unknown trims besides
-/// (swash-plate offset up to 0.3 `fraction`, thrust line up to 1 cm x `fraction`). Draws again until the
-/// helicopter can hover between 30 % and 80 % of the stick.
+/// Draws every parameter but the standing height uniformly within +-`fraction` of its nominal value, and adds
+/// unknown trims (swash-plate offset up to 0.3 `fraction`, thrust line up to 1 cm x `fraction`). Draws again
+/// until the helicopter can hover between 30 % and 80 % of the stick, with rotor speed to spare.
 HelicopterParameters varied(const HelicopterParameters& nominal, double fraction, Random& random);
 
 }  // namespace helical

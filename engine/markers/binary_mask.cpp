@@ -23,8 +23,8 @@ std::uint64_t BinaryMask::lastWordMask() const {
   return used == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
 }
 
-void BinaryMask::erode(const BinaryMask& source, int reach, int widen) {
-  setBand(source.firstRow() - widen, source.lastRow() + widen);
+void BinaryMask::erode(const BinaryMask& source, int reach) {
+  setBand(source.firstRow(), source.lastRow());
   const auto words = static_cast<std::size_t>(words_);
   std::uint64_t* line = line_.data() + 1;
   for (int y = first_row_; y <= last_row_; ++y) {

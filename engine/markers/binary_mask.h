@@ -24,8 +24,8 @@ class BinaryMask {
 
   /// Sets this to the erosion or dilation of `source` with a square of side 2 `reach` + 1, `reach` at most 7.
   /// As in OpenCV, pixels outside the image never decide: they count as set for the erosion, as unset for the
-  /// dilation. The band is that of `source`, widened by `widen` rows on both sides.
-  void erode(const BinaryMask& source, int reach, int widen = 0);
+  /// dilation. The band is that of `source`.
+  void erode(const BinaryMask& source, int reach);
   void dilate(const BinaryMask& source, int reach);
 
  private:

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdio>
 #include <cstring>
 #include <semaphore>
 #include <thread>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "engine/base/spsc_queue.h"
 #include "engine/pipeline/flight_loop.h"
 #include "engine/pipeline/output_loop.h"
@@ -24,7 +26,7 @@ using ObservationQueue = SpscQueue<Observation, 16>;
 
 EngineEvent event(TimeNs time, Severity severity, const char* text) {
   EngineEvent result{time, severity, {}};
-  std::strncpy(result.text.data(), text, result.text.size() - 1);
+  std::snprintf(result.text.data(), result.text.size(), "%s", text);
   return result;
 }
 
@@ -139,7 +141,9 @@ struct Engine::Implementation {
   OutputLoop output;
 
   std::vector<std::unique_ptr<ObservationQueue>> queues;
-  std::array<std::atomic<std::uint64_t>, kMaxCameras> queue_drops{};
+  /// Heads of the queues, taken out to be compared; flight thread.
+  std::array<Observation, kMaxCameras> heads{};
+  std::array<bool, kMaxCameras> has_head{};
   std::counting_semaphore<> arrived{0};
 
   std::atomic<bool> take_off{false};
@@ -155,6 +159,8 @@ struct Engine::Implementation {
   FlightPhase last_phase = FlightPhase::kIdle;
   SafetyState last_safety = SafetyState::kNormal;
   bool had_pose = false;
+  bool announced_give_up = false;
+  bool ever_started = false;
 
   std::vector<std::jthread> threads;
 };
@@ -165,19 +171,26 @@ void Engine::Implementation::capture(std::size_t index, const std::stop_token& s
   while (!stop.stop_requested()) {
     source.wait(clock->now() + kLongestWait);
     while (source.poll(observation)) {
-      if (!queues[index]->push(observation)) queue_drops[index].fetch_add(1, std::memory_order_relaxed);
+      // A full queue drops it; the gap in the sequence counts it.
+      queues[index]->push(observation);
       arrived.release();
     }
   }
 }
 
 void Engine::Implementation::receive() {
-  Observation observation;
-  for (std::size_t i = 0; i < queues.size(); ++i) {
-    const CameraId camera = cameraId(static_cast<int>(i));
-    loop.hideCamera(camera, hidden[i].load(std::memory_order_relaxed));
-    loop.addDropped(camera, queue_drops[i].exchange(0, std::memory_order_relaxed));
-    while (queues[i]->pop(observation)) loop.onObservation(observation, clock->now());
+  for (std::size_t i = 0; i < queues.size(); ++i)
+    loop.hideCamera(cameraId(static_cast<int>(i)), hidden[i].load(std::memory_order_relaxed));
+  // In order of exposure over all cameras, also after a stall that let the queues fill.
+  for (;;) {
+    std::size_t oldest = queues.size();
+    for (std::size_t i = 0; i < queues.size(); ++i) {
+      if (!has_head[i]) has_head[i] = queues[i]->pop(heads[i]);
+      if (has_head[i] && (oldest == queues.size() || heads[i].exposure < heads[oldest].exposure)) oldest = i;
+    }
+    if (oldest == queues.size()) return;
+    loop.onObservation(heads[oldest], clock->now());
+    has_head[oldest] = false;
   }
 }
 
@@ -185,7 +198,7 @@ void Engine::Implementation::tick(TimeNs now) {
   OperatorCommands commands;
   commands.take_off = take_off.exchange(false);
   commands.land = land.exchange(false);
-  commands.kill = output.killed();
+  commands.kill = output.stopped();
   output.submit(loop.onTick(now, commands), now);
 
   EngineSnapshot& snapshot = newest.back();
@@ -207,6 +220,15 @@ void Engine::Implementation::announce(const EngineSnapshot& now) {
   if (now.pose_known && !had_pose) {
     had_pose = true;
     raise(now.time, Severity::kGood, "Helicopter found");
+  }
+  if (now.refusal != nullptr) {
+    std::array<char, 112> text{};
+    std::snprintf(text.data(), text.size(), "Take-off refused: %s", now.refusal);
+    raise(now.time, Severity::kCaution, text.data());
+  }
+  if (output.gaveUp() && !announced_give_up) {
+    announced_give_up = true;
+    raise(now.time, Severity::kDanger, "Output fell back to rotors off: the flight thread was silent");
   }
   if (now.phase != last_phase) raise(now.time, Severity::kInfo, phaseText(now.phase));
   if (now.safety != last_safety) {
@@ -260,8 +282,9 @@ bool Engine::running() const {
 }
 
 void Engine::start() {
-  if (running()) return;
   Implementation& i = *implementation_;
+  HELICAL_CHECK(!i.ever_started);
+  i.ever_started = true;
   // Opening devices and drawing the simulated rooms took time that is not part of the flight.
   i.clock->restart();
   i.threads.emplace_back([&i](const std::stop_token& stop) { i.send(stop); });

@@ -22,6 +22,7 @@ class Engine {
   const RigConfig& rig() const;
   const FlightPlan& plan() const;
 
+  /// Once in the engine's life: after a stop the rotors stay off.
   void start();
   void stop();
   bool running() const;

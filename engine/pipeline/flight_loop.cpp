@@ -5,8 +5,10 @@
 namespace helical {
 namespace {
 
+// What took longer to get here says nothing about now; used, it would keep the no-pose failsafes silent.
+constexpr TimeNs kLatest = 150 * kNanosecondsPerMillisecond;
 constexpr TimeNs kRateWindow = kNanosecondsPerSecond / 2;
-constexpr int kPercentileTicks = 30;  // percentiles are sorted out twice a second
+constexpr int kPercentileTicks = 30;  // percentiles cost a pass over the bins: not at every tick
 
 /// Wall time of this thread's work; the flight's own clock may be simulated.
 const MonotonicClock& stopwatch() {
@@ -41,10 +43,6 @@ void FlightLoop::hideCamera(CameraId camera, bool hidden) {
   snapshot_.cameras[static_cast<std::size_t>(camera.index())].hidden = hidden;
 }
 
-void FlightLoop::addDropped(CameraId camera, std::uint64_t frames) {
-  snapshot_.cameras[static_cast<std::size_t>(camera.index())].dropped += frames;
-}
-
 void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   const TimeNs begin = stopwatch().now();
   const auto index = static_cast<std::size_t>(observation.camera.index());
@@ -52,6 +50,7 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i)
     usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !snapshot_.cameras[i].hidden;
   const std::size_t cameras = rig_.cameras.size();
+  if (now - observation.exposure > kLatest) return;
   const TimeNs last_update = tracker_.lastUpdate();
   tracker_.update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
   if (tracker_.lastUpdate() != last_update) pose_time_ = now;
@@ -114,6 +113,7 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.hovering = output.hovering;
   snapshot_.pad_height = output.pad_height;
   snapshot_.sticks = output.sticks;
+  snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) snapshot_.cameras[i].estimate = estimates_[i];
 }

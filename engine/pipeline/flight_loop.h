@@ -25,8 +25,6 @@ class FlightLoop {
 
   /// The operator hides a camera: its observations count as frames, but nothing they show is used.
   void hideCamera(CameraId camera, bool hidden);
-  /// Frames that were lost before they came here.
-  void addDropped(CameraId camera, std::uint64_t frames);
 
   /// State after the last tick.
   const EngineSnapshot& snapshot() const { return snapshot_; }

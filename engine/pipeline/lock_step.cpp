@@ -24,7 +24,9 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   }
   const TimeNs now = clock_->now();
   if (commands.kill) output_.kill();
-  output_.submit(loop_.onTick(now, commands), now);
+  OperatorCommands gated = commands;
+  gated.kill = output_.stopped();
+  output_.submit(loop_.onTick(now, gated), now);
   output_.step(now);
   snapshot_ = loop_.snapshot();
   hardware_.world->advanceTo(now);

@@ -24,7 +24,7 @@ StickDemand OutputLoop::neutralRamp(TimeNs silent_for) const {
 }
 
 void OutputLoop::step(TimeNs now) {
-  if (killed() || given_up_) {
+  if (stopped()) {
     transmitter_.send({}, now);
     return;
   }
@@ -36,8 +36,10 @@ void OutputLoop::step(TimeNs now) {
     return;
   }
   const StickDemand demand = neutralRamp(silent_for);
-  // A rotor that was spun down is started by the operator only.
-  given_up_ = newest.demand.upper_rotor > 0.0 && demand.upper_rotor <= 0.0;
+  // Rotors that were spun down stay off, whatever the flight thread says when it wakes up.
+  const bool turned = newest.demand.upper_rotor > 0.0 || newest.demand.lower_rotor > 0.0;
+  if (turned && demand.upper_rotor <= 0.0 && demand.lower_rotor <= 0.0)
+    gave_up_.store(true, std::memory_order_release);
   transmitter_.send(demand, now);
 }
 

@@ -20,6 +20,10 @@ class OutputLoop {
   /// Any thread. Latched.
   void kill() { killed_.store(true, std::memory_order_release); }
   bool killed() const { return killed_.load(std::memory_order_acquire); }
+  /// Any thread. The flight thread was silent so long that the rotors were ramped down. Latched.
+  bool gaveUp() const { return gave_up_.load(std::memory_order_acquire); }
+  /// Nothing but zero will be sent any more.
+  bool stopped() const { return killed() || gaveUp(); }
   /// Output thread: sends what the helicopter should get now.
   void step(TimeNs now);
 
@@ -33,7 +37,7 @@ class OutputLoop {
   Transmitter& transmitter_;
   LatestValue<Stamped> newest_;
   std::atomic<bool> killed_{false};
-  bool given_up_ = false;
+  std::atomic<bool> gave_up_{false};
 };
 
 }  // namespace helical

@@ -31,7 +31,8 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
     const CameraId id = cameraId(static_cast<int>(i));
     if (rig.simulation.images) {
       auto source = std::make_unique<SimulatedCamera>(id, camera.model, truePose(rig, i), rig.markers_in_body,
-                                                      rig.simulation, hardware.world, clock);
+                                                      rig.marker_options.background_frames, rig.simulation,
+                                                      hardware.world, clock);
       hardware.sources.push_back(
           std::make_unique<ExtractingSource>(std::move(source), rig.marker_options, tap));
     } else {

@@ -19,7 +19,7 @@ struct CameraSnapshot {
   CameraEstimate estimate;
   bool hidden = false;        ///< by the operator: its observations are thrown away
   std::uint64_t frames = 0;   ///< received
-  std::uint64_t dropped = 0;  ///< missing in the sequence, or lost because a queue was full
+  std::uint64_t dropped = 0;  ///< missing in the sequence
   double frames_per_second = 0.0;
   TimeNs latency = 0;         ///< mid-exposure to its use on the flight thread, newest frame
   int centroids = 0;          ///< regions found in the newest frame
@@ -45,12 +45,13 @@ struct EngineSnapshot {
   double flight_time_s = 0.0;  ///< since the rotors started
   double pad_height = 0.0;     ///< of the body's origin standing on the pad [m]
   StickDemand sticks;
-  bool has_truth = false;  ///< simulated flights only
-  HelicopterState truth;   ///< at `time`
-  Verdict verdict;         ///< valid with `has_truth`
-  TimeNs server_p50 = 0;   ///< observation in hand to command out, flight thread
+  const char* refusal = nullptr;  ///< at the tick when a take-off order is given up: why; a literal
+  bool has_truth = false;         ///< simulated flights only
+  HelicopterState truth;          ///< at `time`
+  Verdict verdict;                ///< valid with `has_truth`
+  TimeNs server_p50 = 0;          ///< observation in hand to command out, flight thread
   TimeNs server_p99 = 0;
-  TimeNs frame_to_command_p50 = 0;  ///< arrival of the frame to the command that first used it
+  TimeNs frame_to_command_p50 = 0;  ///< arrival of a camera's newest frame to the tick that first used it
   TimeNs frame_to_command_p99 = 0;
   double ticks_per_second = 0.0;
   std::array<CameraSnapshot, kMaxCameras> cameras{};

@@ -16,15 +16,17 @@ SceneOptions sceneOptions(CameraId camera, const SimulationOptions& options) {
 
 SimulatedCamera::SimulatedCamera(CameraId camera, const CameraModel& model,
                                  const RigidTransform& camera_from_world, const MarkerLayout& markers,
-                                 const SimulationOptions& options, std::shared_ptr<World> world,
-                                 std::shared_ptr<Clock> clock)
+                                 int background_frames, const SimulationOptions& options,
+                                 std::shared_ptr<World> world, std::shared_ptr<Clock> clock)
     : camera_(camera),
       world_(std::move(world)),
       clock_(std::move(clock)),
       disturbances_(camera, options, camera_from_world,
                     randomStream(options.seed, RandomStream::kKnocks, camera)),
       exposures_(options, randomStream(options.seed, RandomStream::kExposures, camera)),
-      renderer_(model, markers, sceneOptions(camera, options)) {
+      renderer_(model, markers, sceneOptions(camera, options)),
+      background_frames_(background_frames) {
+  if (background_frames_ > 0) world_->holdEmpty();
   // Draws the room now: the first frame must not be late.
   renderer_.render(disturbances_.cameraFromWorld(0.0), std::nullopt, 0.0);
 }
@@ -62,6 +64,7 @@ bool SimulatedCamera::poll(Frame& frame) {
   frame = {camera_, exposures_.sequence(), exposures_.exposure(), exposures_.arrival(), image_};
   exposures_.next();
   exposed_ = false;
+  if (background_frames_ > 0 && --background_frames_ == 0) world_->releaseEmpty();
   return true;
 }
 

@@ -16,8 +16,8 @@ namespace helical {
 class SimulatedCamera final : public CameraSource {
  public:
   SimulatedCamera(CameraId camera, const CameraModel& model, const RigidTransform& camera_from_world,
-                  const MarkerLayout& markers, const SimulationOptions& options, std::shared_ptr<World> world,
-                  std::shared_ptr<Clock> clock);
+                  const MarkerLayout& markers, int background_frames, const SimulationOptions& options,
+                  std::shared_ptr<World> world, std::shared_ptr<Clock> clock);
 
   CameraId camera() const override { return camera_; }
   bool poll(Frame& frame) override;
@@ -33,7 +33,8 @@ class SimulatedCamera final : public CameraSource {
   ExposureClock exposures_;
   SceneRenderer renderer_;
   ImageView image_;
-  bool exposed_ = false;  ///< `image_` shows the next frame
+  int background_frames_;  ///< still to come, before the helicopter may be put on the pad
+  bool exposed_ = false;   ///< `image_` shows the next frame
 };
 
 }  // namespace helical

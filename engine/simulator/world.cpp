@@ -36,7 +36,7 @@ World::World(const SimulationOptions& options, const HelicopterParameters& nomin
     : options_(options),
       random_(randomStream(options.seed, RandomStream::kGusts)),
       dynamics_(drawn(options, nominal)),
-      placed_at_step_(fromSeconds(options.field_empty_s) / kStep),
+      earliest_placing_(fromSeconds(options.field_empty_s) / kStep),
       history_(kHistory) {
   Random placement = randomStream(options.seed, RandomStream::kPlacement);
   const double x = kPadSigma * placement.normal(), y = kPadSigma * placement.normal();
@@ -56,8 +56,9 @@ void World::stepOnce() {
     sticks_ = commands_.front().demand;
     commands_.pop_front();
   }
+  if (placed_at_step_ < 0 && step_ >= earliest_placing_ && holds_ == 0) placed_at_step_ = step_;
   ++step_;
-  if (step_ > placed_at_step_ && !verdict_.crashed) {
+  if (placed_at_step_ >= 0 && !verdict_.crashed) {
     blow(kStepS);
     dynamics_.step(sticks_, gust_, kStepS);
     upper_angle_ = std::remainder(upper_angle_ + dynamics_.upperRotorSpeed() * kStepS, 2.0 * kPi);
@@ -109,7 +110,7 @@ std::optional<WorldSample> World::at(TimeNs time) const {
   const std::lock_guard lock(mutex_);
   HELICAL_CHECK(time <= step_ * kStep);
   const std::int64_t before = time / kStep;
-  if (before < placed_at_step_) return std::nullopt;
+  if (placed_at_step_ < 0 || before < placed_at_step_) return std::nullopt;
   const std::int64_t first = std::max<std::int64_t>(before, step_ - kHistory + 1);
   const WorldSample& a = history_[static_cast<std::size_t>(first % kHistory)];
   if (first == step_) return a;
@@ -124,6 +125,16 @@ std::optional<WorldSample> World::at(TimeNs time) const {
   sample.state.angular_velocity_in_body +=
       f * (b.state.angular_velocity_in_body - a.state.angular_velocity_in_body);
   return sample;
+}
+
+void World::holdEmpty() {
+  const std::lock_guard lock(mutex_);
+  ++holds_;
+}
+
+void World::releaseEmpty() {
+  const std::lock_guard lock(mutex_);
+  --holds_;
 }
 
 void World::command(const StickDemand& demand, TimeNs when) {

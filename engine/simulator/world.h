@@ -34,6 +34,11 @@ class World {
   /// last advance.
   std::optional<WorldSample> at(TimeNs time) const;
 
+  /// Keeps the field empty beyond `field_empty_s` until as many releases have come: a camera with images
+  /// first needs its background, however slow the machine is.
+  void holdEmpty();
+  void releaseEmpty();
+
   /// Sticks that take effect at `when`.
   void command(const StickDemand& demand, TimeNs when);
 
@@ -57,7 +62,9 @@ class World {
   std::deque<Command> commands_;
   StickDemand sticks_;
   std::int64_t step_ = 0;
-  std::int64_t placed_at_step_;
+  std::int64_t earliest_placing_;
+  std::int64_t placed_at_step_ = -1;  ///< not yet
+  int holds_ = 0;
   double upper_angle_ = 0.0;
   double lower_angle_ = 0.0;
   std::vector<WorldSample> history_;  // ring, by step

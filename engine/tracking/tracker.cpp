@@ -19,6 +19,8 @@ constexpr double kForeseen = 0.3;           // s, over which the motion model is
 // A partly hidden ball's centre of gravity is off by this many radii (standard deviation) per share of area
 // missing: measured on rendered images.
 constexpr double kHiddenShift = 0.48;
+constexpr double kLongestPrediction = 1.0;                        // s
+constexpr TimeNs kLongestBack = 30 * kNanosecondsPerMillisecond;  // cameras may be this far out of order
 constexpr TimeNs kRecentView = 100 * kNanosecondsPerMillisecond;
 constexpr double kGapSpeedLimit = 1.5;  // m/s, of the velocity guessed across a gap
 
@@ -53,9 +55,16 @@ Tracker::Tracker(const TrackerOptions& options, const MarkerLayout& markers, std
 TrackedState Tracker::predict(TimeNs time, bool airborne) const {
   TrackedState result{time, state_, Matrix6d::Identity()};
   if (!acquired_) return result;
+  const double ahead = toSeconds(time - time_);
   Matrix12d covariance = covariance_;
-  model_.propagate(result.state, covariance, noise_.noise(), toSeconds(time - time_), airborne);
+  model_.propagate(result.state, covariance, noise_.noise(), std::min(ahead, kLongestPrediction), airborne);
   result.pose_covariance = poseBlock(covariance) + biasCovariance(time);
+  if (ahead > kLongestPrediction) {
+    // Beyond a second the model knows nothing: it may have gone anywhere and turned any way.
+    const double drift = kGapSpeedLimit * (ahead - kLongestPrediction);
+    result.pose_covariance.diagonal().head<3>().array() += drift * drift;
+    result.pose_covariance.diagonal().tail<3>().array() += kPi * kPi;
+  }
   return result;
 }
 
@@ -75,6 +84,7 @@ void Tracker::update(const Observation& observation, std::span<const CameraEstim
   track = CameraTrack{};
   track.exposure = observation.exposure;
   if (!usable[index]) return;
+  if (acquired_ && time_ - observation.exposure > kLongestBack) return;
   acquisition_.add(observation);
   const bool gap = toSeconds(observation.exposure - last_update_) > options_.reacquire_after_s;
   if (!acquired_ || gap || agreement_ < kDoubtfulAgreement) {
@@ -93,7 +103,7 @@ void Tracker::update(const Observation& observation, std::span<const CameraEstim
   nameFeatures(observation, features, track);
   select(observation.camera, cameras[index], features);
   if (correct(cameras[index], features, airborne)) {
-    last_update_ = observation.exposure;
+    last_update_ = std::max(last_update_, observation.exposure);
     last_good_ = state_;
   }
   report(observation, cameras[index], features, track);

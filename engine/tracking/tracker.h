@@ -29,8 +29,8 @@ class Tracker {
   Tracker(const TrackerOptions& options, const MarkerLayout& markers, std::vector<CameraModel> cameras,
           double standing_height);
 
-  /// Takes in what one camera saw. Cameras that are not `usable` are not looked at. Observations may come in
-  /// any order within some 10 ms.
+  /// Takes in what one camera saw. Cameras that are not `usable` are not looked at. Observations of different
+  /// cameras may come out of order by 30 ms; older ones are not used.
   void update(const Observation& observation, std::span<const CameraEstimate> cameras,
               std::span<const bool> usable, bool airborne);
 

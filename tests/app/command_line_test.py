@@ -36,7 +36,7 @@ class Fly(unittest.TestCase):
             self.assertLessEqual({"method", "time_to_1cm_s", "position_error_m", "orientation_error_deg",
                                   "position_sigma_m", "orientation_sigma_deg", "crlb_position_m",
                                   "crlb_orientation_deg", "nees", "bumps_detected"}, set(camera["calibration"]))
-        self.assertGreater(report["simulated_over_wall"], 1)
+        self.assertGreater(report["simulated_over_wall"], 20)
 
     def test_repeats_for_a_seed(self):
         first, second, other = (run_json("fly", "--no-images", "--seed", seed)[1] for seed in (7, 7, 8))
@@ -67,10 +67,16 @@ class Fly(unittest.TestCase):
                                 "--bump", "3@8:5,0.05")
         self.assertEqual((code, report["outcome"]), (0, "landed"))
 
-    def test_realtime_keeps_pace_and_drops_nothing_image_free(self):
-        code, report = run_json("fly", "--no-images", "--realtime", "--duration", 13)
+    def test_realtime_with_images_keeps_pace_and_drops_nothing(self):
+        code, report = run_json("fly", "--realtime", "--duration", 15)
         self.assertEqual((code, report["outcome"]), (0, "landed"))
-        self.assertLess(report["simulated_over_wall"], 1.1)
+        self.assertGreater(report["simulated_over_wall"], 0.95)
+        self.assertLess(report["simulated_over_wall"], 1.05)
+        print([(c["frames"], c["dropped"], c["extraction_us"]) for c in report["cameras"]], report["server_us"])
+        for camera in report["cameras"]:
+            self.assertGreater(camera["frames"], 600)
+            # A machine that stalls for longer than a camera's buffer loses frames; a rig that cannot keep up loses many.
+            self.assertLess(camera["dropped"], 0.01 * camera["frames"])
 
     def test_readable_report_goes_to_stdout_and_progress_to_stderr(self):
         result = run("fly", "--no-images")
@@ -117,8 +123,16 @@ class Errors(unittest.TestCase):
         self.assert_refused(run("fly", "--rig", path), path, "cure:")
 
     def test_window_without_a_display(self):
-        self.assert_refused(run(), "cure:", code=run().returncode)
-        self.assertIn(run().returncode, (1, 2))
+        without = run()
+        self.assertEqual(without.returncode, 1)
+        self.assertIn("DISPLAY is not set", without.stderr)
+        self.assertIn("cure:", without.stderr)
+        dead = run(DISPLAY=":7777")
+        self.assertEqual(dead.returncode, 1)
+        self.assertIn("no X server answers", dead.stderr)
+
+    def test_rig_before_a_sub_command_is_not_ignored(self):
+        self.assert_refused(run("--rig", "/nonexistent.toml", "fly", "--no-images"), "--rig", "cure:")
 
     def test_full_disk_is_said(self):
         with open("/dev/full", "w", encoding="utf-8") as full:

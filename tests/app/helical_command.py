@@ -9,10 +9,12 @@ BINARY = sys.argv[1] if len(sys.argv) > 1 else "helical"
 SOURCE = sys.argv[2] if len(sys.argv) > 2 else "."
 
 
-def run(*arguments, **options):
-    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+def run(*arguments, **environment):
+    """Without a display, unless `environment` names one."""
+    inherited = {k: v for k, v in os.environ.items()
+                 if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
     return subprocess.run([BINARY, *map(str, arguments)], capture_output=True, text=True, timeout=600,
-                          env=environment, **options)
+                          env={**inherited, **environment})
 
 
 def run_json(*arguments):

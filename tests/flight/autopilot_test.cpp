@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "engine/geometry/rotation.h"
@@ -27,6 +28,7 @@ bool raised(const AutopilotOutput& output, Failsafe failsafe) {
 FlightPlan shortHover() {
   FlightPlan plan;
   plan.land_at_s = 12.0;
+  plan.start_delay_s = 0.0;
   return plan;
 }
 
@@ -138,10 +140,63 @@ TEST(Autopilot, DoesNotStartOnAnOldPose) {
 TEST(Autopilot, MeasuresThePadBeforeTheStart) {
   Flight flight;
   flight.blind = true;  // states come from here alone
-  flight.input.state.world_from_body.translation.z() = 0.31;
+  flight.input.state.world_from_body.translation.z() = 0.071;
   flight.input.pose_age_s = -1.0;
   flight.tick();
-  EXPECT_NEAR(flight.output.pad_height, 0.31, 1e-9);
+  EXPECT_NEAR(flight.output.pad_height, 0.071, 1e-9);
+}
+
+TEST(Autopilot, WaitsTheDelayOfThePlanFromWhenItIsFirstSeen) {
+  FlightPlan plan = shortHover();
+  plan.start_delay_s = 3.0;
+  Flight flight(plan);
+  flight.tick(kTakeOff);
+  flight.run(2.8);
+  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
+  flight.run(0.4);
+  EXPECT_EQ(flight.output.phase, FlightPhase::kSpinUp);
+}
+
+TEST(Autopilot, AnOrderThatCannotBeCarriedOutIsRefusedNotKept) {
+  Flight flight;
+  flight.input.pose_known = false;
+  flight.tick(kTakeOff);
+  std::string refusal;
+  for (int i = 0; i < 400; ++i)
+    if (flight.tick().refusal != nullptr) refusal = flight.output.refusal;
+  EXPECT_EQ(refusal, "the helicopter is not seen");
+  flight.input.pose_known = true;
+  flight.run(2.0);
+  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
+}
+
+TEST(Autopilot, StartsOnlyStandingStillAndUprightOnThePad) {
+  struct Case {
+    const char* refusal;
+    void (*disturb)(HelicopterState&);
+  };
+  const Case cases[] = {
+      {"it does not stand on the pad", [](HelicopterState& s) { s.world_from_body.translation.x() = 0.8; }},
+      {"it does not stand on the pad", [](HelicopterState& s) { s.world_from_body.translation.z() = 1.1; }},
+      {"it does not stand upright",
+       [](HelicopterState& s) {
+         s.world_from_body.rotation = expSO3({0.5, 0, 0});
+       }},
+      {"it moves", [](HelicopterState& s) { s.velocity_in_world.x() = 0.4; }}};
+  for (const Case& c : cases) {
+    Flight flight;
+    flight.tick();
+    c.disturb(flight.input.state);
+    flight.blind = true;  // states come from here alone
+    std::string refusal;
+    for (int i = 0; i < 400; ++i) {
+      flight.input.pose_age_s = -1.0;
+      if (flight.tick(i == 0 ? kTakeOff : OperatorCommands{}).refusal != nullptr)
+        refusal = flight.output.refusal;
+      EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
+    }
+    EXPECT_EQ(refusal, c.refusal);
+  }
 }
 
 TEST(Autopilot, LandDuringSpinUpAndLiftOffStopsTheRotorsOnThePad) {

@@ -25,7 +25,6 @@ Flown flyHover(const RigConfig& rig) {
   LockStep flight(rig, plan);
   Flown flown;
   OperatorCommands commands;
-  TimeNs pose_since = -1;
   for (;;) {
     const EngineSnapshot& now = flight.tick(commands);
     flown.score.add(now);
@@ -33,9 +32,7 @@ Flown flyHover(const RigConfig& rig) {
         toSeconds(now.pose_age) < 1.0)
       flown.hard_touch_while_seen = true;
     flown.verdict = now.verdict;
-    if (now.pose_known && pose_since < 0) pose_since = now.time;
-    commands.take_off = now.phase == FlightPhase::kIdle && pose_since >= 0 &&
-                        toSeconds(now.time - pose_since) >= plan.start_delay_s;
+    commands.take_off = now.phase == FlightPhase::kIdle && now.pose_known;
     const bool over = now.verdict.crashed || (now.phase == FlightPhase::kOff && now.verdict.at_rest);
     if (over || toSeconds(now.time) > 45.0) break;
   }

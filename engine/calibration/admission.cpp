@@ -81,7 +81,7 @@ double normalisedResidual(const CameraModel& camera, const MarkerLayout& markers
     residual = std::sqrt(error.dot(covariance.inverse() * error)) / kMedianOfTwo;
   }
   if (count < kFewestBalls) return -1.0;
-  const auto middle = residuals.begin() + count / 2;
+  const auto middle = residuals.begin() + (count - 1) / 2;
   std::nth_element(residuals.begin(), middle, residuals.begin() + count);
   return *middle;
 }

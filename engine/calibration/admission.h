@@ -27,9 +27,9 @@ void validate(const AdmissionOptions& options);
 double uncertaintyAround(const CameraModel& camera, const CameraEstimate& estimate,
                          const Eigen::Vector3d& helicopter_in_world, double reach_m);
 
-/// Median over the balls of the distance between pixel and prediction, each in standard deviations of what
-/// centroid, helicopter pose and camera estimate together allow, scaled so that it is 1 on average for errors
-/// that are as expected. Negative if there are fewer than three balls: too few to judge by.
+/// Median (the lower of two) over the balls of the distance between pixel and prediction, each in standard
+/// deviations of what centroid, helicopter pose and camera estimate together allow, scaled so that it is
+/// about 1 for errors as expected. Negative if there are fewer than three balls: too few to judge by.
 double normalisedResidual(const CameraModel& camera, const MarkerLayout& markers,
                           const CameraEstimate& estimate, const CalibrationFrame& frame);
 

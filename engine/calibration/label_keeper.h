@@ -25,7 +25,8 @@ class LabelKeeper {
  public:
   LabelKeeper(const LabelKeeperOptions& options, int marker_count);
 
-  /// Starts from a labelling found elsewhere. At least three balls must have names.
+  /// Starts from a labelling found elsewhere. Fewer than three names are none; a ball without a
+  /// name at the start stays without one.
   void restart(const Observation& observation, const Names& names);
 
   /// Names for the centroids of a later frame; nobody has one while lost.

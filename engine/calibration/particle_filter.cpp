@@ -42,6 +42,8 @@ void validate(const ParticleFilterOptions& options) {
           options.resample_share, "give a share above 0, at most 1");
   require(options.temper_share >= 0.0 && options.temper_share < 1.0, "temper_share", options.temper_share,
           "give 0 (never) or a share below 1");
+  require(options.literal_sigma_px > 0.0 && options.literal_sigma_px <= 1000.0, "literal_sigma_px",
+          options.literal_sigma_px, "give a number above 0, at most 1000");
   require(options.start_inflation >= 1.0 && options.start_inflation <= 100.0, "start_inflation",
           options.start_inflation, "give 1 to 100");
 }
@@ -99,19 +101,29 @@ void ParticleFilter::seedAround(const Resection& resection) {
   started_ = true;
 }
 
+Eigen::Matrix2d ParticleFilter::pixelCovariance(const CalibrationFrame& frame,
+                                                const LabelledPixel& seen) const {
+  if (kind_ == ParticleFilterKind::kLiteral)
+    return options_.literal_sigma_px * options_.literal_sigma_px * Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d covariance = options_.sigma_factor * options_.sigma_factor * seen.covariance;
+  const auto ball = projectMarker(camera_, estimate_.camera_from_world, frame.world_from_body,
+                                  markers_.inBody(seen.marker));
+  // An error of the helicopter's pose is common to all balls, the likelihood takes each for itself: n times
+  // the variance makes them say together what one of them may.
+  if (ball)
+    covariance += static_cast<double>(frame.pixels.size()) * ball->d_pose * frame.pose_covariance *
+                  ball->d_pose.transpose();
+  return covariance;
+}
+
 std::span<const BearingTarget> ParticleFilter::targets(const CalibrationFrame& frame) {
   std::size_t count = 0;
   for (const LabelledPixel& seen : frame.pixels) {
     if (count == targets_.size()) break;
     BearingTarget& target = targets_[count++];
-    const Eigen::Vector3d& marker = markers_.inBody(seen.marker);
-    target.ball_in_world = frame.world_from_body * marker;
+    target.ball_in_world = frame.world_from_body * markers_.inBody(seen.marker);
     target.bearing = camera_.bearing(seen.pixel);
-    Eigen::Matrix2d covariance = options_.sigma_factor * options_.sigma_factor * seen.covariance;
-    if (kind_ == ParticleFilterKind::kStabilised)
-      if (const auto seen_from =
-              projectMarker(camera_, estimate_.camera_from_world, frame.world_from_body, marker))
-        covariance += seen_from->d_pose * frame.pose_covariance * seen_from->d_pose.transpose();
+    const Eigen::Matrix2d covariance = pixelCovariance(frame, seen);
     target.whitening = covariance.llt().matrixL().solve(pixelPerBearing(camera_, target.bearing));
     target.peak = 1.0 / (std::sqrt(2.0 * kPi) * std::pow(covariance.determinant(), 0.25));
   }

@@ -13,11 +13,13 @@ namespace helical {
 
 struct ParticleFilterOptions {
   int particles = 1000;
-  double sigma_factor = 2.0;     ///< sigma of equation 11 over the centroid's own
-  double floor = 1e-3;           ///< a of equation 11, per pixel
-  double kernel = 0.5;           ///< h of Liu and West
-  double resample_share = 0.5;   ///< resample below this effective share of particles
-  double temper_share = 0.3;     ///< no reweighing leaves less than this effective share
+  double sigma_factor = 2.0;    ///< sigma of equation 11 over the centroid's own
+  double floor = 1e-3;          ///< a of equation 11, per pixel
+  double kernel = 0.5;          ///< h of Liu and West
+  double resample_share = 0.5;  ///< resample below this effective share of particles
+  double temper_share = 0.3;    ///< no reweighing leaves less than this effective share
+  double literal_sigma_px =
+      20.0;  ///< sigma of the literal kind: the paper gives none, a sharper one finds nobody
   double start_inflation = 3.0;  ///< first particles: standard deviations of the first resection, times this
 };
 
@@ -53,6 +55,7 @@ class ParticleFilter final : public ExtrinsicCalibrator {
  private:
   void considerModes();
   void seedAround(const Resection& resection);
+  Eigen::Matrix2d pixelCovariance(const CalibrationFrame& frame, const LabelledPixel& seen) const;
   std::span<const BearingTarget> targets(const CalibrationFrame& frame);
   double temperedExponent(double remaining);
   void filter(const CalibrationFrame& frame);

@@ -11,9 +11,9 @@ namespace helical {
 RigidTransform mirroredPose(const RigidTransform& camera_from_world, const RigidTransform& world_from_body,
                             const MarkerLayout& markers);
 
-/// The best of three solutions for the same frames: from `current`, from its mirror image (in the newest
-/// frame) and from `guess`. `other_mode` says that it is neither `current` refined nor next to it, and fits
-/// clearly better. Allocates nothing.
+/// The best of several solutions for the same frames: from `current`, from its mirror image (in the newest
+/// frame), from `guess` and, while none of these fits, from a flat layout's poses in one frame. `other_mode`
+/// says that `current` is in another mode, or far from any solution. Allocates nothing.
 struct ModeChoice {
   Resection best;
   bool other_mode = false;

@@ -3,37 +3,25 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/experiment.h"
 #include "app/progress.h"
+#include "app/random_view.h"
 #include "engine/base/error.h"
-#include "engine/base/random.h"
 #include "engine/correspondence/affine_seed.h"
-#include "engine/correspondence/labelling_search.h"
-#include "engine/geometry/camera_perturbation.h"
 
 namespace helical {
 namespace {
 
 constexpr int kFewestMarkers = 3;
-constexpr int kMostMarkersForFullSearch = 7;  // 5040 labellings; 8 would take minutes
+constexpr int kMostMarkersForFullSearch = 7;  // 5040 labellings; of 8 a search takes seconds
 constexpr int kFullSearchRuns = 10;           // only its time is asked for
-constexpr int kSquare = 4;                    // markers of the paper's layout, almost a square
-constexpr double kHalfWidth = 0.17;           // of the layout [m]
-constexpr double kSquareJitter = 0.03;
-constexpr double kClosestMarkers = 0.025;
-constexpr double kLeastParallelogram = 0.005;  // [m^2]
-constexpr double kMarkerHeight = -0.05;
-constexpr double kMarkerRadius = 0.012;
-constexpr double kSigmaPx = 0.5;
 
 struct Arguments {
   std::string markers = "3-15";
@@ -60,107 +48,6 @@ Range parseRange(const std::string& text) {
                 "give a number or a range from " + std::to_string(kFewestMarkers) + " to " +
                     std::to_string(kMaxMarkers) + ", as in 3-15");
   return range;
-}
-
-/// One random view of a random layout by a camera whose pose is known only roughly.
-struct Trial {
-  MarkerLayout layout;
-  RigidTransform guess;
-  LabellingFrame frame;  ///< the helicopter stands on its pad
-  Labelling truth;
-};
-
-Eigen::Vector3d randomDirection(Random& random) {
-  return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-}
-
-MarkerLayout randomSquare(Random& random) {
-  std::array<Eigen::Vector3d, kSquare> markers;
-  const double middle = kHalfWidth - kSquareJitter;
-  for (std::size_t i = 0; i < kSquare; ++i)
-    markers[i] = {(i == 0 || i == 3 ? middle : -middle) + random.uniform(-kSquareJitter, kSquareJitter),
-                  (i < 2 ? middle : -middle) + random.uniform(-kSquareJitter, kSquareJitter), kMarkerHeight};
-  return MarkerLayout(markers, kMarkerRadius);
-}
-
-std::vector<Eigen::Vector3d> randomMarkers(Random& random, int count) {
-  std::vector<Eigen::Vector3d> markers;
-  while (static_cast<int>(markers.size()) < count) {
-    const Eigen::Vector3d marker(random.uniform(-kHalfWidth, kHalfWidth),
-                                 random.uniform(-kHalfWidth, kHalfWidth), kMarkerHeight);
-    if (std::all_of(markers.begin(), markers.end(),
-                    [&](const auto& other) { return (other - marker).norm() >= kClosestMarkers; }))
-      markers.push_back(marker);
-  }
-  return markers;
-}
-
-/// Three balls almost on a line are no layout that anybody would build.
-bool spansPlane(const std::vector<Eigen::Vector3d>& markers) {
-  const Eigen::Vector3d along = markers[1] - markers[0];
-  return std::any_of(markers.begin() + 2, markers.end(), [&](const Eigen::Vector3d& marker) {
-    return along.cross(marker - markers[0]).norm() >= kLeastParallelogram;
-  });
-}
-
-MarkerLayout randomLayout(Random& random, int count) {
-  if (count == kSquare) return randomSquare(random);
-  std::vector<Eigen::Vector3d> markers;
-  do markers = randomMarkers(random, count);
-  while (!spansPlane(markers));
-  return MarkerLayout(markers, kMarkerRadius);
-}
-
-/// From 2.3 to 3.2 m away at 30 to 50 degrees of elevation, turned towards the helicopter but for some
-/// centimetres, a little rolled.
-RigidTransform randomCamera(Random& random) {
-  const double azimuth = random.uniform(-kPi, kPi);
-  const double elevation = toRadians(random.uniform(30.0, 50.0));
-  const Eigen::Vector3d centre =
-      random.uniform(2.3, 3.2) * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                                                 std::cos(elevation) * std::sin(azimuth),
-                                                 std::sin(elevation));
-  const Eigen::Vector3d target(0.05 * random.normal(), 0.05 * random.normal(), 0.0);
-  const Eigen::Vector3d forward = (target - centre).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d camera_from_world;
-  camera_from_world << right.transpose(), forward.cross(right).transpose(), forward.transpose();
-  RigidTransform camera;
-  camera.rotation =
-      (expSO3({0, 0, random.uniform(-0.3, 0.3)}) * Eigen::Quaterniond(camera_from_world)).normalized();
-  camera.translation = -(camera.rotation * centre);
-  return camera;
-}
-
-CameraModel experimentCamera() {
-  return CameraModel(640, 480, 567.6, 567.6, 319.5, 239.5);
-}
-
-/// Camera 3 of the paper's experiments: 15 degrees and 0.4 m off.
-RigidTransform roughGuess(const RigidTransform& camera_from_world, Random& random) {
-  Vector6d error;
-  error << toRadians(15.0) * randomDirection(random), 0.4 * randomDirection(random);
-  return perturbCamera(camera_from_world, error);
-}
-
-Trial randomTrial(Random& random, int count) {
-  Trial trial;
-  trial.layout = randomLayout(random, count);
-  const RigidTransform camera_from_world = randomCamera(random);
-  trial.guess = roughGuess(camera_from_world, random);
-  trial.truth.count = count;
-  for (int k = 0; k < count; ++k)
-    trial.truth.marker[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(k);
-  for (std::size_t k = static_cast<std::size_t>(count) - 1; k > 0; --k)
-    std::swap(
-        trial.truth.marker[k],
-        trial.truth.marker[static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(k) + 1.0))]);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-    const Eigen::Vector3d marker = trial.layout.inBody(MarkerId{trial.truth.marker[k]});
-    trial.frame.pixels[k] = *experimentCamera().project(camera_from_world * marker) +
-                            kSigmaPx * Eigen::Vector2d(random.normal(), random.normal());
-  }
-  return trial;
 }
 
 /// Processor time of this thread [us]: other work on the machine does not count.
@@ -201,44 +88,44 @@ bool isRight(const ScoredLabelling* found, const Labelling& truth) {
   return found && found->labelling == truth;
 }
 
-void searchNested(const Trial& trial, Tally& tally) {
+void searchNested(const RandomView& view, Tally& tally) {
   LabellingSearch search;
   tally.time_us += timed([&] {
-    search = searchLabellings(experimentCamera(), trial.layout, {&trial.frame, 1}, trial.guess);
+    search = searchLabellings(randomViewCamera(), view.layout, {&view.frame, 1}, view.guess);
   });
   const auto& all = search.labellings();
   tally.consistent += std::any_of(
-      all.begin(), all.end(), [&](const ScoredLabelling& scored) { return scored.labelling == trial.truth; });
-  tally.right_plausible += isRight(search.best(LabellingCriterion::kNearestPlausible), trial.truth);
-  tally.right_geodesic += isRight(search.best(LabellingCriterion::kGeodesic), trial.truth);
-  tally.right_literal += isRight(search.best(LabellingCriterion::kLiteral), trial.truth);
-  tally.right_reprojection += isRight(search.best(LabellingCriterion::kReprojection), trial.truth);
+      all.begin(), all.end(), [&](const ScoredLabelling& scored) { return scored.labelling == view.truth; });
+  tally.right_plausible += isRight(search.best(LabellingCriterion::kNearestPlausible), view.truth);
+  tally.right_geodesic += isRight(search.best(LabellingCriterion::kGeodesic), view.truth);
+  tally.right_literal += isRight(search.best(LabellingCriterion::kLiteral), view.truth);
+  tally.right_reprojection += isRight(search.best(LabellingCriterion::kReprojection), view.truth);
 }
 
-void countLabellings(const Trial& trial, Tally& tally) {
+void countLabellings(const RandomView& view, Tally& tally) {
   const ConvexLayers image =
-      peelConvexLayers({trial.frame.pixels.data(), static_cast<std::size_t>(tally.markers)});
+      peelConvexLayers({view.frame.pixels.data(), static_cast<std::size_t>(tally.markers)});
   const auto count = static_cast<double>(NestedLabellings(image, image, ViewSide::kAbove).count());
   tally.labellings += count;
   tally.most_labellings = std::max(tally.most_labellings, count);
 }
 
-void searchFromSeed(const Trial& trial, Tally& tally) {
+void searchFromSeed(const RandomView& view, Tally& tally) {
   if (tally.markers < 4) return;
   std::vector<SeedLabelling> seeds;
   tally.seed_time_us += timed([&] {
-    seeds = affineSeedLabellings(experimentCamera(), trial.layout,
-                                 {trial.frame.pixels.data(), static_cast<std::size_t>(tally.markers)});
+    seeds = affineSeedLabellings(randomViewCamera(), view.layout,
+                                 {view.frame.pixels.data(), static_cast<std::size_t>(tally.markers)});
   });
-  tally.right_seed += !seeds.empty() && seeds.front().labelling == trial.truth;
+  tally.right_seed += !seeds.empty() && seeds.front().labelling == view.truth;
 }
 
-void searchFully(const Trial& trial, Tally& tally) {
+void searchFully(const RandomView& view, Tally& tally) {
   if (tally.markers > kMostMarkersForFullSearch || tally.full_runs == kFullSearchRuns) return;
   LabellingSearchOptions options;
   options.scope = LabellingScope::kEveryPermutation;
   tally.full_time_us += timed([&] {
-    searchLabellings(experimentCamera(), trial.layout, {&trial.frame, 1}, trial.guess, options);
+    searchLabellings(randomViewCamera(), view.layout, {&view.frame, 1}, view.guess, options);
   });
   ++tally.full_runs;
 }
@@ -248,11 +135,11 @@ Tally study(int markers, const Arguments& arguments, const std::function<void(do
   tally.markers = markers;
   Random random = Random(arguments.seed).fork(static_cast<std::uint64_t>(markers));
   for (; tally.runs < arguments.runs; ++tally.runs) {
-    const Trial trial = randomTrial(random, markers);
-    countLabellings(trial, tally);
-    searchNested(trial, tally);
-    searchFromSeed(trial, tally);
-    searchFully(trial, tally);
+    const RandomView view = randomView(random, markers);
+    countLabellings(view, tally);
+    searchNested(view, tally);
+    searchFromSeed(view, tally);
+    searchFully(view, tally);
     progress(static_cast<double>(tally.runs) / arguments.runs);
   }
   return tally;

@@ -31,7 +31,7 @@ LabellingSearch search(const RandomView& view, const RigidTransform& guess,
 
 TEST(LabellingSearch, FindsLabelsAndPoseWithoutNoise) {
   Random random(1);
-  for (int trial = 0; trial < 130; ++trial) {
+  for (int trial = 0; trial < 65; ++trial) {
     const int markers = 4 + trial % (kMaxMarkers - 3);
     const RandomView view = randomView(random, markers, 0.0);
     const LabellingSearch found = search(view, guessOf(view, kAngle, kDistance, random));
@@ -153,7 +153,7 @@ TEST(LabellingSearch, RefusesOptionsOutOfRange) {
 
 TEST(AffineSeed, NamesCentroidsWithoutAGuess) {
   Random random(7);
-  constexpr int kTrials = 300;
+  constexpr int kTrials = 180;
   int right = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const RandomView view = randomView(random, 5 + trial % (kMaxMarkers - 4), 0.5);

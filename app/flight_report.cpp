@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -26,12 +27,24 @@ json microseconds(TimeNs p50, TimeNs p99) {
   return {{"p50", static_cast<double>(p50) * 1e-3}, {"p99", static_cast<double>(p99) * 1e-3}};
 }
 
-json noCalibration() {
+/// Null but for a camera that was calibrated in flight.
+json calibrationJson(const FlightRun& run, std::size_t index) {
   json fields;
   for (const char* key :
        {"method", "time_to_1cm_s", "position_error_m", "orientation_error_deg", "position_sigma_m",
         "orientation_sigma_deg", "crlb_position_m", "crlb_orientation_deg", "nees", "bumps_detected"})
     fields[key] = nullptr;
+  const CameraSnapshot& camera = run.last.cameras[index];
+  if (camera.calibration_method == nullptr) return fields;
+  const CameraError error = cameraError(camera.estimate.camera_from_world, run.true_cameras[index]);
+  const double converged_s = run.score.convergedAfter(cameraId(static_cast<int>(index)));
+  fields["method"] = camera.calibration_method;
+  fields["time_to_1cm_s"] = converged_s >= 0.0 ? json(converged_s) : json(nullptr);
+  fields["position_error_m"] = error.position;
+  fields["orientation_error_deg"] = toDegrees(error.orientation);
+  fields["position_sigma_m"] = std::sqrt(camera.estimate.covariance.diagonal().tail<3>().sum());
+  fields["orientation_sigma_deg"] =
+      toDegrees(std::sqrt(camera.estimate.covariance.diagonal().head<3>().sum()));
   return fields;
 }
 
@@ -42,13 +55,14 @@ json idJson(const std::string& label) {
   return number ? json(std::stoi(label)) : json(label);
 }
 
-json cameraJson(const CameraConfig& config, const CameraSnapshot& camera) {
+json cameraJson(const FlightRun& run, const CameraConfig& config, std::size_t index) {
+  const CameraSnapshot& camera = run.last.cameras[index];
   return {{"id", idJson(config.label)},
           {"calibrated", camera.estimate.status == CameraStatus::kCalibrated},
           {"frames", camera.frames},
           {"dropped", camera.dropped},
           {"extraction_us", microseconds(camera.extraction_p50, camera.extraction_p99)},
-          {"calibration", noCalibration()}};
+          {"calibration", calibrationJson(run, index)}};
 }
 
 std::string outcome(const FlightRun& run) {
@@ -86,7 +100,7 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["cameras"] = json::array();
   json selected = json::object();
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    report["cameras"].push_back(cameraJson(rig.cameras[i], run.last.cameras[i]));
+    report["cameras"].push_back(cameraJson(run, rig.cameras[i], i));
     selected[rig.cameras[i].label] = 100.0 * score.selectedShare(cameraId(static_cast<int>(i)));
   }
   report["selected_features"] = selected;
@@ -125,6 +139,11 @@ std::string flightText(const FlightRun& run, const RigConfig& rig) {
       text += line(", extraction %.0f us (99 %%: %.0f)", static_cast<double>(camera.extraction_p50) * 1e-3,
                    static_cast<double>(camera.extraction_p99) * 1e-3);
     text += "\n";
+    if (camera.calibration_method != nullptr) {
+      const CameraError error = cameraError(camera.estimate.camera_from_world, run.true_cameras[i]);
+      text += line("             by %s: %.1f mm and %.2f deg from its true place\n", camera.calibration_method,
+                   1e3 * error.position, toDegrees(error.orientation));
+    }
   }
   text +=
       line("  server    %.0f us per command (99 %%: %.0f)\n", static_cast<double>(run.last.server_p50) * 1e-3,

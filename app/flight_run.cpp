@@ -7,6 +7,7 @@
 #include "engine/base/clock.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/lock_step.h"
+#include "engine/pipeline/rig_hardware.h"
 
 namespace helical {
 namespace {
@@ -68,6 +69,9 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const FlightProgress& 
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
                     const FlightProgress& progress) {
   FlightRun run;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    run.true_cameras.push_back(trueCameraFromWorld(rig, cameraId(static_cast<int>(i))));
+  run.score.setTrueCameras(run.true_cameras);
   Operator pilot(limit_s);
   if (realtime) {
     Engine engine(rig, plan);

@@ -12,15 +12,21 @@
 #include "app/option_values.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
+#include "engine/calibration/calibrator_factory.h"
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
+#include "engine/geometry/rotation.h"
+#include "engine/pipeline/rig_hardware.h"
+#include "engine/simulator/disturbances.h"
+#include "engine/simulator/random_streams.h"
 
 namespace helical {
 namespace {
 
 constexpr double kBeforeStartS = 0.5;  // of a session: empty field, finding the pose
-constexpr double kLandingS = 6.0;      // descent and rotors off
+constexpr double kInitialErrorDeg = 15.0, kInitialErrorM = 0.4;  // the paper's experiments
+constexpr double kLandingS = 6.0;                                // descent and rotors off
 constexpr double kLongestLiftOffS = 8.0;
 constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
 constexpr double kShortestFlightS = 6.0;
@@ -37,12 +43,33 @@ struct FlyArguments {
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
   std::vector<std::string> uncalibrated;
+  std::string calibrator;
+  std::vector<double> initial_error;  ///< degrees, metres
   double pixel_noise = -1.0;
   double outliers = -1.0;
   double gust = -1.0;
   double vary = -1.0;
   double rate = -1.0;
 };
+
+/// Gives cameras without a pose a first guess, so far from the truth and in a direction drawn for the seed,
+/// and the method that makes a calibration of it.
+void calibrateInFlight(const FlyArguments& arguments, RigConfig& rig) {
+  if (!arguments.calibrator.empty()) rig.calibrator = arguments.calibrator;
+  const bool given = arguments.initial_error.size() == 2;
+  if (arguments.calibrator.empty() && !given) return;
+  const double degrees = given ? arguments.initial_error[0] : kInitialErrorDeg;
+  const double metres = given ? arguments.initial_error[1] : kInitialErrorM;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    CameraConfig& camera = rig.cameras[i];
+    const bool has_guess = camera.pose_is_guess && !given;
+    if (has_guess || (camera.camera_from_world && !camera.pose_is_guess)) continue;
+    const CameraId id = cameraId(static_cast<int>(i));
+    camera.camera_from_world = displaced(trueCameraFromWorld(rig, id), toRadians(degrees), metres,
+                                         randomStream(arguments.seed, RandomStream::kFirstGuesses, id));
+    camera.pose_is_guess = true;
+  }
+}
 
 RigConfig configuredRig(const FlyArguments& arguments) {
   RigConfig rig = loadRig(arguments.rig.empty() ? resourceFolder() / "rigs" / "paper.toml"
@@ -64,6 +91,7 @@ RigConfig configuredRig(const FlyArguments& arguments) {
     if (!truth) truth = rig.cameras[index].camera_from_world;
     rig.cameras[index].camera_from_world.reset();
   }
+  calibrateInFlight(arguments, rig);
   validate(simulation);
   return rig;
 }
@@ -95,6 +123,12 @@ double plannedSeconds(const FlightPlan& plan) {
                plan.waypoints[i].speed;
   }
   return total;
+}
+
+std::string knownCalibrators() {
+  std::string names;
+  for (const auto name : calibratorNames()) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
 }
 
 int fly(const FlyArguments& arguments) {
@@ -141,6 +175,14 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.0, 0.9));
   command->add_option("--uncalibrated", arguments->uncalibrated, "CAM,...: cameras whose pose is not known")
       ->delimiter(',');
+  command->add_option("--calibrator", arguments->calibrator,
+                      "Calibrates cameras without a pose in flight: " + knownCalibrators());
+  command
+      ->add_option("--initial-error", arguments->initial_error,
+                   "DEG,M: how far off their first guess is (default 15,0.4)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--rate", arguments->rate, "Frame rate of the cameras [Hz]")
       ->check(CLI::PositiveNumber);
   command->add_flag("--realtime", arguments->realtime,

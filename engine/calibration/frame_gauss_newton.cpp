@@ -35,7 +35,7 @@ void FrameGaussNewton::step(const CalibrationFrame& frame) {
   const StoredFrame single = stored(frame);
   const std::array<const StoredFrame*, 1> frames{&single};
   const RigidTransform& start = options_.warm_start ? estimate_.camera_from_world : guess_;
-  const Resection solution =
+  const MarginalResection solution =
       resect(camera_, markers_, frames, start,
              {.iterations = options_.iterations, .robust_sigmas = 0.0, .damped = false});
   if (!solution.ok) return;

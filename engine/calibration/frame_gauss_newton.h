@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/calibration/camera_perturbation.h"
-#include "engine/calibration/resection.h"
+#include "engine/calibration/marginal_resection.h"
 
 namespace helical {
 

@@ -61,7 +61,7 @@ void GrowingGaussNewton::checkModes() {
 
 void GrowingGaussNewton::solve() {
   unsolved_ = 0;
-  const Resection solution = resect(
+  const MarginalResection solution = resect(
       camera_, markers_, store_.frames(), estimate_.camera_from_world,
       {.iterations = schedule_.seen() <= kYoungFrames ? 20 : 2, .robust_sigmas = options_.robust_sigmas});
   if (!solution.ok) return;

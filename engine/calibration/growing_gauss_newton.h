@@ -2,13 +2,13 @@
 
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/pose_modes.h"
-#include "engine/calibration/resection.h"
+#include "engine/calibration/marginal_resection.h"
 
 namespace helical {
 
 struct GrowingGaussNewtonOptions {
   int kept_frames = 300;       ///< bounds memory and time
-  double robust_sigmas = 4.0;  ///< see ResectionOptions
+  double robust_sigmas = 4.0;  ///< see MarginalResectionOptions
 };
 
 /// Throws Error(kInput) naming the offending key.

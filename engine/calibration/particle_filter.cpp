@@ -95,7 +95,7 @@ void ParticleFilter::considerModes() {
   seedAround(choice.best);
 }
 
-void ParticleFilter::seedAround(const Resection& resection) {
+void ParticleFilter::seedAround(const MarginalResection& resection) {
   const double inflation = options_.start_inflation * options_.start_inflation;
   cloud_.seed(resection.camera_from_world, inflation * resection.information.inverse(), random_);
   started_ = true;

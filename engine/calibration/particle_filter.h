@@ -54,7 +54,7 @@ class ParticleFilter final : public ExtrinsicCalibrator {
 
  private:
   void considerModes();
-  void seedAround(const Resection& resection);
+  void seedAround(const MarginalResection& resection);
   Eigen::Matrix2d pixelCovariance(const CalibrationFrame& frame, const LabelledPixel& seen) const;
   std::span<const BearingTarget> targets(const CalibrationFrame& frame);
   double temperedExponent(double remaining);

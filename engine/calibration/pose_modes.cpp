@@ -19,7 +19,7 @@ constexpr double kPoorFit = 4.0;  // squared sigmas per ball, where 2 are expect
 constexpr double kFlatM = 1e-6;
 constexpr double kSameRotationRad = 0.01;  // two solutions closer than both are one mode
 constexpr double kSamePositionM = 0.03;
-constexpr ResectionOptions kSolve{.iterations = 30};
+constexpr MarginalResectionOptions kSolve{.iterations = 30};
 
 struct MarkerPlane {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -76,8 +76,8 @@ Starts planarStarts(const CameraModel& camera, const MarkerLayout& markers,
 
 /// Solves from another start and keeps the result if it is better.
 void consider(const CameraModel& camera, const MarkerLayout& markers,
-              std::span<const StoredFrame* const> frames, const RigidTransform& start, Resection& best) {
-  const Resection other = resect(camera, markers, frames, start, kSolve);
+              std::span<const StoredFrame* const> frames, const RigidTransform& start, MarginalResection& best) {
+  const MarginalResection other = resect(camera, markers, frames, start, kSolve);
   if (other.ok && (!best.ok || other.cost < best.cost - kBetter)) best = other;
 }
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "engine/calibration/resection.h"
+#include "engine/calibration/marginal_resection.h"
 
 namespace helical {
 
@@ -15,7 +15,7 @@ RigidTransform mirroredPose(const RigidTransform& camera_from_world, const Rigid
 /// frame), from `guess` and, while none of these fits, from a flat layout's poses in one frame. `other_mode`
 /// says that `current` is in another mode, or far from any solution. Allocates nothing.
 struct ModeChoice {
-  Resection best;
+  MarginalResection best;
   bool other_mode = false;
 };
 ModeChoice chooseMode(const CameraModel& camera, const MarkerLayout& markers,

@@ -36,6 +36,7 @@ struct RigConfig {
   ControllerOptions control;
   SupervisorOptions safety;
   SimulationOptions simulation;
+  std::string calibrator = "particle-filter";  ///< of cameras that have a first guess only
 
   /// The camera that users call `label`; throws Error(kInput) listing the rig's cameras.
   CameraId camera(const std::string& label) const;

@@ -7,6 +7,7 @@ namespace {
 
 // What took longer to get here says nothing about now; used, it would keep the no-pose failsafes silent.
 constexpr TimeNs kLatest = 150 * kNanosecondsPerMillisecond;
+constexpr TimeNs kTeaching = 50 * kNanosecondsPerMillisecond;
 constexpr TimeNs kRateWindow = kNanosecondsPerSecond / 2;
 constexpr int kPercentileTicks = 30;  // percentiles cost a pass over the bins: not at every tick
 
@@ -35,7 +36,11 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
     if (!camera.camera_from_world) continue;
     estimates_[i].camera_from_world = *camera.camera_from_world;
     // A pose that the rig file vouches for flies; a first guess waits for its calibration.
-    estimates_[i].status = camera.pose_is_guess ? CameraStatus::kUncalibrated : CameraStatus::kCalibrated;
+    estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
+    if (camera.pose_is_guess)
+      calibrations_[i] =
+          std::make_unique<CameraCalibration>(rig.calibrator, camera.model, rig.markers_in_body,
+                                              *camera.camera_from_world, rig.simulation.seed + i);
   }
 }
 
@@ -54,8 +59,25 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   const TimeNs last_update = tracker_.lastUpdate();
   tracker_.update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
   if (tracker_.lastUpdate() != last_update) pose_time_ = now;
+  calibrate(observation);
   snapshot_.cameras[index].track = tracker_.track(observation.camera);
   work_since_tick_ += stopwatch().now() - begin;
+}
+
+void FlightLoop::calibrate(const Observation& observation) {
+  const auto index = static_cast<std::size_t>(observation.camera.index());
+  if (!calibrations_[index] || snapshot_.cameras[index].hidden || !tracker_.acquired()) return;
+  // The pose must come from others, two at least: a camera that teaches itself confirms its own error.
+  int teachers = 0;
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    const CameraTrack& track = tracker_.track(cameraId(static_cast<int>(i)));
+    if (i != index && usable_[i] && track.selected_count >= 2 &&
+        observation.exposure - track.exposure < kTeaching)
+      ++teachers;
+  }
+  if (teachers < 2) return;
+  calibrations_[index]->step(observation, tracker_.predict(observation.exposure, airborne_));
+  estimates_[index] = calibrations_[index]->estimate();
 }
 
 void FlightLoop::count(const Observation& observation, TimeNs now) {
@@ -115,7 +137,11 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.sticks = output.sticks;
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
-  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) snapshot_.cameras[i].estimate = estimates_[i];
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    snapshot_.cameras[i].estimate = estimates_[i];
+    snapshot_.cameras[i].calibration_method =
+        calibrations_[i] ? calibrations_[i]->calibrator().name() : nullptr;
+  }
 }
 
 void FlightLoop::measureRates(TimeNs now) {

@@ -5,6 +5,7 @@
 #include "engine/base/latency_histogram.h"
 #include "engine/config/rig_config.h"
 #include "engine/flight/autopilot.h"
+#include "engine/pipeline/camera_calibration.h"
 #include "engine/pipeline/snapshot.h"
 #include "engine/tracking/tracker.h"
 
@@ -37,6 +38,7 @@ class FlightLoop {
     std::uint64_t window_frames = 0;
     TimeNs unused_arrival = -1;  ///< of the newest frame that no command has used yet
   };
+  void calibrate(const Observation& observation);
   void count(const Observation& observation, TimeNs now);
   void measureRates(TimeNs now);
   void fillSnapshot(TimeNs now, const AutopilotOutput& output);
@@ -46,6 +48,8 @@ class FlightLoop {
   Autopilot autopilot_;
   EngineSnapshot snapshot_;
   std::array<CameraEstimate, kMaxCameras> estimates_;
+  std::array<std::unique_ptr<CameraCalibration>, kMaxCameras>
+      calibrations_;  ///< of cameras with a first guess
   std::array<bool, kMaxCameras> usable_{};
   std::array<CameraCounters, kMaxCameras> counters_;
   std::array<LatencyHistogram, kMaxCameras> extraction_time_;

@@ -53,6 +53,16 @@ void FlightScore::add(const EngineSnapshot& tick) {
   if (!tick.has_truth) return;
   if (inTheAir(tick.phase) && tick.pose_known) addTracking(tick);
   addControl(tick);
+  addCalibration(tick);
+}
+
+void FlightScore::addCalibration(const EngineSnapshot& tick) {
+  for (std::size_t c = 0; c < true_cameras_.size(); ++c) {
+    const CameraSnapshot& camera = tick.cameras[c];
+    if (camera.calibration_method == nullptr || converged_s_[c] >= 0.0) continue;
+    const CameraError error = cameraError(camera.estimate.camera_from_world, true_cameras_[c]);
+    if (error.position < 0.01 && error.orientation < toRadians(0.5)) converged_s_[c] = toSeconds(tick.time);
+  }
 }
 
 void FlightScore::addTracking(const EngineSnapshot& tick) {
@@ -85,6 +95,11 @@ void FlightScore::addControl(const EngineSnapshot& tick) {
 double FlightScore::selectedShare(CameraId camera) const {
   const auto index = static_cast<std::size_t>(camera.index());
   return shown_[index] > 0 ? static_cast<double>(selected_[index]) / static_cast<double>(shown_[index]) : 0.0;
+}
+
+CameraError cameraError(const RigidTransform& estimated, const RigidTransform& truth) {
+  return {(estimated.inverseTranslation() - truth.inverseTranslation()).norm(),
+          estimated.rotation.angularDistance(truth.rotation)};
 }
 
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes) {

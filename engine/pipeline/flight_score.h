@@ -45,6 +45,14 @@ class FlightScore {
   std::uint64_t neesSamples() const { return nees_samples_; }
   /// Share of a camera's markers that were used while the rotors turned, 0..1.
   double selectedShare(CameraId camera) const;
+  /// Tells where the cameras truly are, for `convergedAfter`.
+  void setTrueCameras(std::vector<RigidTransform> camera_from_world) {
+    true_cameras_ = std::move(camera_from_world);
+  }
+  /// When a camera that is calibrated in flight first was within 1 cm and 0.5 degrees [s]; negative if never.
+  double convergedAfter(CameraId camera) const {
+    return converged_s_[static_cast<std::size_t>(camera.index())];
+  }
   std::uint32_t failsafes() const { return failsafes_; }
   FlightPhase phase() const { return phase_; }
 
@@ -52,6 +60,7 @@ class FlightScore {
   double mean(double sum) const { return nees_samples_ > 0 ? sum / static_cast<double>(nees_samples_) : 0.0; }
   void addTracking(const EngineSnapshot& tick);
   void addControl(const EngineSnapshot& tick);
+  void addCalibration(const EngineSnapshot& tick);
 
   RunningRms tracked_position_, tracked_orientation_, hover_horizontal_, hover_height_, hover_yaw_;
   std::array<double, 5> nees_{};
@@ -64,7 +73,21 @@ class FlightScore {
   std::array<std::uint64_t, kMaxCameras> selected_{};
   std::array<std::uint64_t, kMaxCameras> shown_{};
   std::array<TimeNs, kMaxCameras> last_exposure_{};
+  std::vector<RigidTransform> true_cameras_;
+  std::array<double, kMaxCameras> converged_s_ = [] {
+    std::array<double, kMaxCameras> never{};
+    never.fill(-1.0);
+    return never;
+  }();
 };
+
+/// How far a camera's estimated place is from its true one.
+struct CameraError {
+  double position = 0.0;     ///< of the centre [m]
+  double orientation = 0.0;  ///< rad
+};
+CameraError cameraError(const RigidTransform& estimated_camera_from_world,
+                        const RigidTransform& true_camera_from_world);
 
 /// "landed", "crashed", "failsafe-landed" or "aborted", as `helical fly` reports it.
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes);

@@ -6,9 +6,9 @@
 #include "engine/simulator/simulated_transmitter.h"
 
 namespace helical {
-namespace {
 
-RigidTransform truePose(const RigConfig& rig, std::size_t index) {
+RigidTransform trueCameraFromWorld(const RigConfig& rig, CameraId id) {
+  const auto index = static_cast<std::size_t>(id.index());
   const auto& truths = rig.simulation.true_camera_from_world;
   if (index < truths.size() && truths[index]) return *truths[index];
   const CameraConfig& camera = rig.cameras[index];
@@ -16,8 +16,6 @@ RigidTransform truePose(const RigConfig& rig, std::size_t index) {
   throw Error(ErrorKind::kInput, "simulated camera " + camera.label + " has no place in the world", rig.path,
               "give it a [camera.pose], or its true pose in [[simulation.camera]]");
 }
-
-}  // namespace
 
 RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
                     const ExtractingSource::FrameTap& tap) {
@@ -30,15 +28,15 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
                   "give it source = \"sim\"");
     const CameraId id = cameraId(static_cast<int>(i));
     if (rig.simulation.images) {
-      auto source = std::make_unique<SimulatedCamera>(id, camera.model, truePose(rig, i), rig.markers_in_body,
-                                                      rig.marker_options.background_frames, rig.simulation,
-                                                      hardware.world, clock);
+      auto source = std::make_unique<SimulatedCamera>(
+          id, camera.model, trueCameraFromWorld(rig, id), rig.markers_in_body,
+          rig.marker_options.background_frames, rig.simulation, hardware.world, clock);
       hardware.sources.push_back(
           std::make_unique<ExtractingSource>(std::move(source), rig.marker_options, tap));
     } else {
-      hardware.sources.push_back(std::make_unique<SimulatedObserver>(id, camera.model, truePose(rig, i),
-                                                                     rig.markers_in_body, rig.marker_options,
-                                                                     rig.simulation, hardware.world, clock));
+      hardware.sources.push_back(std::make_unique<SimulatedObserver>(
+          id, camera.model, trueCameraFromWorld(rig, id), rig.markers_in_body, rig.marker_options,
+          rig.simulation, hardware.world, clock));
     }
   }
   hardware.transmitter = std::make_unique<SimulatedTransmitter>(rig.simulation, hardware.world);

@@ -22,6 +22,10 @@ struct RigHardware {
   std::shared_ptr<World> world;
 };
 
+/// Where a simulated camera truly is before anybody knocks it. Throws Error(kInput) when the rig does not
+/// say.
+RigidTransform trueCameraFromWorld(const RigConfig& rig, CameraId camera);
+
 /// Opens every device of the rig. `tap` sees the frames of cameras that have images, on their capture
 /// threads. Throws Error(kDevice) for what cannot be opened.
 RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,

@@ -17,9 +17,10 @@ namespace helical {
 /// One camera as the flight thread sees it.
 struct CameraSnapshot {
   CameraEstimate estimate;
-  bool hidden = false;        ///< by the operator: its observations are thrown away
-  std::uint64_t frames = 0;   ///< received
-  std::uint64_t dropped = 0;  ///< missing in the sequence
+  const char* calibration_method = nullptr;  ///< by which the pose is learnt in flight; null if it was given
+  bool hidden = false;                       ///< by the operator: its observations are thrown away
+  std::uint64_t frames = 0;                  ///< received
+  std::uint64_t dropped = 0;                 ///< missing in the sequence
   double frames_per_second = 0.0;
   TimeNs latency = 0;         ///< mid-exposure to its use on the flight thread, newest frame
   int centroids = 0;          ///< regions found in the newest frame

@@ -14,7 +14,21 @@ Eigen::Vector3d randomDirection(Random& random) {
   return Eigen::Vector3d(x, y, z).normalized();
 }
 
+RigidTransform moved(const RigidTransform& camera_from_world, double angle, double distance, Random& random) {
+  const Eigen::Vector3d axis = randomDirection(random);
+  const Eigen::Vector3d centre = camera_from_world.inverseTranslation() + distance * randomDirection(random);
+  RigidTransform pose;
+  pose.rotation = (expSO3(angle * axis) * camera_from_world.rotation).normalized();
+  pose.translation = -(pose.rotation * centre);
+  return pose;
+}
+
 }  // namespace
+
+RigidTransform displaced(const RigidTransform& camera_from_world, double angle, double distance,
+                         Random random) {
+  return moved(camera_from_world, angle, distance, random);
+}
 
 CameraDisturbances::CameraDisturbances(CameraId camera, const SimulationOptions& options,
                                        const RigidTransform& camera_from_world, Random random)
@@ -27,10 +41,7 @@ CameraDisturbances::CameraDisturbances(CameraId camera, const SimulationOptions&
   std::sort(bumps.begin(), bumps.end(), [](const Bump& a, const Bump& b) { return a.at_s < b.at_s; });
   RigidTransform pose = camera_from_world;
   for (const auto& bump : bumps) {
-    const Eigen::Vector3d axis = randomDirection(random);
-    const Eigen::Vector3d centre = pose.inverseTranslation() + bump.distance * randomDirection(random);
-    pose.rotation = (expSO3(bump.angle * axis) * pose.rotation).normalized();
-    pose.translation = -(pose.rotation * centre);
+    pose = moved(pose, bump.angle, bump.distance, random);
     knocks_.push_back({bump.at_s, pose});
   }
 }

@@ -6,6 +6,10 @@
 
 namespace helical {
 
+/// A camera turned by `angle` about a random axis and shifted by `distance` in a random direction.
+RigidTransform displaced(const RigidTransform& camera_from_world, double angle, double distance,
+                         Random random);
+
 /// What happens to one simulated camera during a session: boards before it and knocks. A pure function of
 /// time; any thread.
 class CameraDisturbances {

@@ -15,6 +15,7 @@ enum class RandomStream : std::uint64_t {
   kExposures = 200,
   kObservations = 300,
   kImages = 400,
+  kFirstGuesses = 500,
 };
 
 inline Random randomStream(std::uint64_t seed, RandomStream stream, CameraId camera = {}) {

@@ -78,6 +78,18 @@ class Fly(unittest.TestCase):
             # A machine that stalls for longer than a camera's buffer loses frames; a rig that cannot keep up loses many.
             self.assertLess(camera["dropped"], 0.01 * camera["frames"])
 
+    def test_calibration_in_flight_is_reported(self):
+        code, report = run_json("fly", "--no-images", "--calibrator", "growing-gauss-newton", "--initial-error", "10,0.3",
+                                "--occlude", "2@13-60")
+        self.assertEqual((code, report["outcome"]), (0, "landed"))
+        calibration = report["cameras"][2]["calibration"]
+        self.assertEqual(calibration["method"], "growing-gauss-newton")
+        self.assertTrue(report["cameras"][2]["calibrated"])
+        self.assertLess(calibration["position_error_m"], 0.02)
+        self.assertLess(calibration["orientation_error_deg"], 1)
+        self.assertGreater(calibration["position_sigma_m"], 0)
+        self.assertIsNone(report["cameras"][0]["calibration"]["method"])
+
     def test_readable_report_goes_to_stdout_and_progress_to_stderr(self):
         result = run("fly", "--no-images")
         self.assertTrue(result.stdout.startswith("landed after"))
@@ -100,7 +112,8 @@ class Errors(unittest.TestCase):
         self.assert_refused(run("fly", "--duration", "3"), "too short", "cure:")
         self.assert_refused(run("fly", "--seed", "abc"))
         self.assert_refused(run("fly", "--vary", "2"))
-        self.assert_refused(run("fly", "--calibrator", "joint"), "--calibrator")
+        self.assert_refused(run("fly", "--no-images", "--calibrator", "joint"), "joint", "particle-filter")
+        self.assert_refused(run("fly", "--initial-error", "15"))
         self.assert_refused(run("loop"))
 
     def test_bad_rig_files_name_file_line_and_cure(self):

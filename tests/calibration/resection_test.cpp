@@ -1,4 +1,4 @@
-#include "engine/calibration/resection.h"
+#include "engine/calibration/marginal_resection.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(Resect, FindsTheCameraFromCleanPixelsExactly) {
                                                         .pose_position_sigma_m = 0.0,
                                                         .pose_rotation_sigma_rad = 0.0});
     const FrameStore store = storeOf(flight, 40);
-    const Resection solution =
+    const MarginalResection solution =
         resect(flight.camera, flight.markers, store.frames(), flight.guess, {.iterations = 60});
     ASSERT_TRUE(solution.ok);
     EXPECT_LT(test::positionError(solution.camera_from_world, flight.camera_from_world), 1e-4);
@@ -71,7 +71,7 @@ TEST(Resect, KnowsHowGoodItIs) {
     const TrainingFlight flight =
         flyForTraining(seed, {.duration_s = 5.0, .outliers = 0.0, .pose_position_sigma_m = 0.003});
     const FrameStore store = storeOf(flight, 60);
-    const Resection solution =
+    const MarginalResection solution =
         resect(flight.camera, flight.markers, store.frames(), flight.camera_from_world, {.iterations = 30});
     const Vector6d error = perturbationBetween(flight.camera_from_world, solution.camera_from_world);
     sum += error.dot(solution.information * error) / 6.0;

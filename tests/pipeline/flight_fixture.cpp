@@ -32,6 +32,7 @@ Flown flyHover(const RigConfig& rig) {
         toSeconds(now.pose_age) < 1.0)
       flown.hard_touch_while_seen = true;
     flown.verdict = now.verdict;
+    flown.last = now;
     commands.take_off = now.phase == FlightPhase::kIdle && now.pose_known;
     const bool over = now.verdict.crashed || (now.phase == FlightPhase::kOff && now.verdict.at_rest);
     if (over || toSeconds(now.time) > 45.0) break;

@@ -20,6 +20,7 @@ struct Flown {
   std::string outcome;
   FlightScore score;
   Verdict verdict;
+  EngineSnapshot last;
   bool hard_touch_while_seen = false;  ///< faster than 1 m/s with a pose in the second before
 };
 

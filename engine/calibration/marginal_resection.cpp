@@ -1,4 +1,4 @@
-#include "engine/calibration/resection.h"
+#include "engine/calibration/marginal_resection.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -104,10 +104,10 @@ double robustScale(Residuals& residuals, double robust_sigmas) {
 
 }  // namespace
 
-Resection resect(const CameraModel& camera, const MarkerLayout& markers,
-                 std::span<const StoredFrame* const> frames, const RigidTransform& initial,
-                 const ResectionOptions& options) {
-  Resection result;
+MarginalResection resect(const CameraModel& camera, const MarkerLayout& markers,
+                         std::span<const StoredFrame* const> frames, const RigidTransform& initial,
+                         const MarginalResectionOptions& options) {
+  MarginalResection result;
   result.camera_from_world = initial;
   Residuals residuals;
   double scale = options.robust_sigmas;

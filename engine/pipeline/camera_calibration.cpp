@@ -1,0 +1,84 @@
+#include "engine/pipeline/camera_calibration.h"
+
+#include <array>
+
+namespace helical {
+namespace {
+
+constexpr double kDoubtLasts =
+    1.0;  // s of residuals over the limit, after which the labelling itself was wrong
+
+}  // namespace
+
+CameraCalibration::CameraCalibration(std::string_view method, const CameraModel& camera,
+                                     const MarkerLayout& markers, const RigidTransform& guess,
+                                     std::uint64_t seed)
+    : camera_(camera),
+      markers_(markers),
+      guess_(guess),
+      calibrator_(makeCalibrator(method, {}, camera, markers, seed)),
+      labels_({}, markers.count()) {
+  calibrator_->restart(guess_);
+}
+
+void CameraCalibration::seekLabels(const Observation& observation, const TrackedState& helicopter) {
+  if (observation.count != markers_.count()) return;
+  LabellingFrame frame;
+  frame.world_from_body = helicopter.state.world_from_body;
+  for (int c = 0; c < observation.count; ++c)
+    frame.pixels[static_cast<std::size_t>(c)] = observation.centroids[static_cast<std::size_t>(c)].pixel;
+  const LabellingSearch search = searchLabellings(camera_, markers_, {&frame, 1}, guess_);
+  const ScoredLabelling* best = search.best(LabellingCriterion::kNearestPlausible);
+  if (best == nullptr) return;
+  Names names;
+  names.fill(-1);
+  for (int c = 0; c < best->labelling.count; ++c)
+    names[best->labelling.marker[static_cast<std::size_t>(c)]] = c;
+  labels_.restart(observation, names);
+  calibrator_->restart(guess_);
+  admission_ = {};
+  doubtful_since_ = -1;
+}
+
+void CameraCalibration::step(const Observation& observation, const TrackedState& helicopter) {
+  if (labels_.lost()) seekLabels(observation, helicopter);
+  const Names names = labels_.follow(observation);
+  std::array<LabelledPixel, kMaxMarkers> pixels;
+  std::size_t count = 0;
+  for (int m = 0; m < markers_.count(); ++m) {
+    const int name = names[static_cast<std::size_t>(m)];
+    if (name < 0) continue;
+    const Centroid& centroid = observation.centroids[static_cast<std::size_t>(name)];
+    pixels[count++] = {markerId(m), centroid.pixel, centroid.covariance};
+  }
+  const CalibrationFrame frame{observation.exposure,
+                               helicopter.state.world_from_body,
+                               helicopter.pose_covariance,
+                               {pixels.data(), count}};
+  calibrator_->step(frame);
+  judge(frame, helicopter.state.world_from_body.translation);
+}
+
+void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector3d& helicopter_in_world) {
+  const CameraEstimate now = calibrator_->estimate();
+  const AdmissionEvidence evidence{
+      frame.exposure, uncertaintyAround(camera_, now, helicopter_in_world, admission_options_.reach_m),
+      normalisedResidual(camera_, markers_, now, frame)};
+  admission_ = admit(admission_options_, admission_, evidence);
+  if (admission_.residual < admission_options_.drop_residual) {
+    doubtful_since_ = -1;
+  } else if (doubtful_since_ < 0) {
+    doubtful_since_ = frame.exposure;
+  } else if (toSeconds(frame.exposure - doubtful_since_) > kDoubtLasts) {
+    labels_.restart({}, Names{});  // names nobody: the next frame seeks anew
+    doubtful_since_ = -1;
+  }
+}
+
+CameraEstimate CameraCalibration::estimate() const {
+  CameraEstimate result = calibrator_->estimate();
+  result.status = admission_.status;
+  return result;
+}
+
+}  // namespace helical

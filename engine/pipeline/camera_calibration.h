@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "engine/calibration/admission.h"
+#include "engine/calibration/calibrator_factory.h"
+#include "engine/calibration/label_keeper.h"
+#include "engine/correspondence/labelling_search.h"
+#include "engine/tracking/track.h"
+
+namespace helical {
+
+/// One un-calibrated camera's way into the control set (the paper's section III): its centroids get names by
+/// nested polygons and keep them from frame to frame, its calibrator learns from every frame that the other
+/// cameras see too, and the one admission rule says when it may be flown on. A labelling that does not
+/// explain the frames is given up and sought again. One thread; allocates only while it seeks a labelling.
+class CameraCalibration {
+ public:
+  /// `guess`: a first guess of camera_from_world. Throws Error(kInput) for an unknown method.
+  CameraCalibration(std::string_view method, const CameraModel& camera, const MarkerLayout& markers,
+                    const RigidTransform& guess, std::uint64_t seed);
+
+  /// One frame, and the helicopter at its exposure as the other cameras have it.
+  void step(const Observation& observation, const TrackedState& helicopter);
+
+  /// Pose, covariance and, by the admission rule, status.
+  CameraEstimate estimate() const;
+  const ExtrinsicCalibrator& calibrator() const { return *calibrator_; }
+
+ private:
+  void seekLabels(const Observation& observation, const TrackedState& helicopter);
+  void judge(const CalibrationFrame& frame, const Eigen::Vector3d& helicopter_in_world);
+
+  CameraModel camera_;
+  MarkerLayout markers_;
+  RigidTransform guess_;
+  std::unique_ptr<ExtrinsicCalibrator> calibrator_;
+  LabelKeeper labels_;
+  AdmissionOptions admission_options_;
+  AdmissionMemory admission_;
+  TimeNs doubtful_since_ = -1;
+};
+
+}  // namespace helical

@@ -170,7 +170,8 @@ void Engine::Implementation::capture(std::size_t index, const std::stop_token& s
   Observation observation;
   while (!stop.stop_requested()) {
     source.wait(clock->now() + kLongestWait);
-    while (source.poll(observation)) {
+    // A machine slower than the camera always finds a next frame: it must still be able to stop.
+    while (!stop.stop_requested() && source.poll(observation)) {
       // A full queue drops it; the gap in the sequence counts it.
       queues[index]->push(observation);
       arrived.release();

@@ -23,20 +23,6 @@ Matrix6d covarianceOf(const GuessSpread& spread) {
   return covariance;
 }
 
-RigidTransform perturbed(const RigidTransform& camera_from_world, const Vector6d& change) {
-  RigidTransform moved;
-  moved.rotation = (expSO3(change.head<3>()) * camera_from_world.rotation).normalized();
-  moved.translation = -(moved.rotation * (camera_from_world.inverseTranslation() + change.tail<3>()));
-  return moved;
-}
-
-Vector6d perturbationBetween(const RigidTransform& from, const RigidTransform& to) {
-  Vector6d change;
-  change.head<3>() = logSO3(to.rotation * from.rotation.conjugate());
-  change.tail<3>() = to.inverseTranslation() - from.inverseTranslation();
-  return change;
-}
-
 std::optional<MarkerProjection> projectMarker(const CameraModel& camera,
                                               const RigidTransform& camera_from_world,
                                               const RigidTransform& world_from_body,

@@ -20,13 +20,6 @@ void validate(const GuessSpread& spread);
 /// Covariance of a camera's perturbation (order of CameraEstimate) with the guess's total variances.
 Matrix6d covarianceOf(const GuessSpread& spread);
 
-/// The camera moved by a perturbation in the order of CameraEstimate: rotation on the left in the camera
-/// frame [rad], then the shift of its centre in the world [m].
-RigidTransform perturbed(const RigidTransform& camera_from_world, const Vector6d& change);
-
-/// The perturbation that turns `from` into `to`.
-Vector6d perturbationBetween(const RigidTransform& from, const RigidTransform& to);
-
 /// One ball's pixel and how it depends on the camera's perturbation and on the helicopter's pose (order of
 /// TrackedState).
 struct MarkerProjection {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/calibration/camera_perturbation.h"
-#include "engine/calibration/pose_modes.h"
 #include "engine/calibration/marginal_resection.h"
+#include "engine/calibration/pose_modes.h"
 
 namespace helical {
 

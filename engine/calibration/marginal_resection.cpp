@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/calibration/camera_perturbation.h"
+#include "engine/geometry/camera_perturbation.h"
 
 namespace helical {
 namespace {
@@ -123,7 +124,7 @@ MarginalResection resect(const CameraModel& camera, const MarkerLayout& markers,
     damped.diagonal() *= 1.0 + damping;
     const Vector6d step = -damped.ldlt().solve(current.gradient);
     if (!step.allFinite()) return result;
-    const RigidTransform trial = perturbed(result.camera_from_world, step);
+    const RigidTransform trial = perturbCamera(result.camera_from_world, step);
     const Normal next = evaluate(camera, markers, frames, trial, scale, residuals);
     if (options.damped && !(next.cost < current.cost)) {
       damping = std::max(damping * 8.0, 1e-6);

@@ -7,6 +7,7 @@
 #include "engine/base/check.h"
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/resampling.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -80,7 +81,7 @@ CloudMoments ParticleCloud::moments() const {
 RigidTransform ParticleCloud::mean() const {
   Vector6d mean = Vector6d::Zero();
   for (std::size_t i = 0; i < changes_.size(); ++i) mean += weights_[i] * changes_[i];
-  return perturbed(reference_, mean);
+  return perturbCamera(reference_, mean);
 }
 
 void ParticleCloud::resample(double kernel, Random& random) {
@@ -108,12 +109,12 @@ void ParticleCloud::moveReference(const Vector6d& mean) {
     change.head<3>() = logSO3(expSO3(change.head<3>()) * back);
     change.tail<3>() -= mean.tail<3>();
   }
-  reference_ = perturbed(reference_, mean);
+  reference_ = perturbCamera(reference_, mean);
 }
 
 void ParticleCloud::updatePoses() {
   for (std::size_t i = 0; i < changes_.size(); ++i) {
-    const RigidTransform pose = perturbed(reference_, changes_[i]);
+    const RigidTransform pose = perturbCamera(reference_, changes_[i]);
     poses_[i] = {pose, weights_[i]};
     const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
     for (int row = 0; row < 3; ++row) {

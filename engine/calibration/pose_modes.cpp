@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/calibration/camera_perturbation.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/planar_pnp.h"
 
 namespace helical {
@@ -37,7 +38,7 @@ MarkerPlane planeOf(const MarkerLayout& markers) {
 }
 
 bool sameMode(const RigidTransform& a, const RigidTransform& b) {
-  const Vector6d change = perturbationBetween(a, b);
+  const Vector6d change = cameraPerturbation(a, b);
   return change.head<3>().norm() < kSameRotationRad && change.tail<3>().norm() < kSamePositionM;
 }
 
@@ -76,7 +77,8 @@ Starts planarStarts(const CameraModel& camera, const MarkerLayout& markers,
 
 /// Solves from another start and keeps the result if it is better.
 void consider(const CameraModel& camera, const MarkerLayout& markers,
-              std::span<const StoredFrame* const> frames, const RigidTransform& start, MarginalResection& best) {
+              std::span<const StoredFrame* const> frames, const RigidTransform& start,
+              MarginalResection& best) {
   const MarginalResection other = resect(camera, markers, frames, start, kSolve);
   if (other.ok && (!best.ok || other.cost < best.cost - kBetter)) best = other;
 }

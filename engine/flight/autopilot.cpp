@@ -95,7 +95,7 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   }
   output.pad_height = pad_height_;
   output.refusal = refusal_;
-  output.airborne = phase_ == FlightPhase::kFlying || phase_ == FlightPhase::kLanding;
+  output.airborne = inTheAir(phase_);
   output.hovering = phase_ == FlightPhase::kFlying && follower_.atFirstWaypoint();
   return output;
 }

@@ -19,6 +19,13 @@ enum class FlightPhase : std::uint8_t {
   kOff,        ///< done: rotors off
 };
 
+constexpr bool rotorsTurn(FlightPhase phase) {
+  return phase != FlightPhase::kIdle && phase != FlightPhase::kOff;
+}
+constexpr bool inTheAir(FlightPhase phase) {
+  return phase == FlightPhase::kFlying || phase == FlightPhase::kLanding;
+}
+
 /// What the supervisor allows. Only ever worsens by itself, but for kCoasting and kDescending, which end when
 /// the pose is back; kCut is latched.
 enum class SafetyState : std::uint8_t {

@@ -11,14 +11,6 @@ SupervisorMemory cut(SupervisorMemory memory, Failsafe reason) {
   return memory;
 }
 
-bool rotorsTurn(FlightPhase phase) {
-  return phase != FlightPhase::kIdle && phase != FlightPhase::kOff;
-}
-
-bool inTheAir(FlightPhase phase) {
-  return phase == FlightPhase::kFlying || phase == FlightPhase::kLanding;
-}
-
 /// Coasting and descending, from the age of the pose; leaves the other states alone.
 SupervisorMemory withoutPose(const SupervisorOptions& options, SupervisorMemory memory,
                              const SupervisorConditions& c) {

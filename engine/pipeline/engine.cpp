@@ -204,14 +204,7 @@ void Engine::Implementation::tick(TimeNs now) {
 
   EngineSnapshot& snapshot = newest.back();
   snapshot = loop.snapshot();
-  if (hardware.world) {
-    hardware.world->advanceTo(now);
-    if (const auto truth = hardware.world->at(now)) {
-      snapshot.has_truth = true;
-      snapshot.truth = truth->state;
-      snapshot.verdict = hardware.world->verdict();
-    }
-  }
+  hardware.addTruth(snapshot, now);
   if (!tick_queue->push(snapshot)) lost.fetch_add(1, std::memory_order_relaxed);
   announce(snapshot);
   newest.publish();

@@ -18,14 +18,6 @@ constexpr std::uint32_t kEndingFailsafes =
     static_cast<std::uint32_t>(Failsafe::kFlightTime) | static_cast<std::uint32_t>(Failsafe::kKill) |
     static_cast<std::uint32_t>(Failsafe::kLiftOffFailed);
 
-bool rotorsTurn(FlightPhase phase) {
-  return phase != FlightPhase::kIdle && phase != FlightPhase::kOff;
-}
-
-bool inTheAir(FlightPhase phase) {
-  return phase == FlightPhase::kFlying || phase == FlightPhase::kLanding;
-}
-
 double normalised(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
   return error.dot(covariance.ldlt().solve(error));
 }
@@ -40,7 +32,6 @@ void FlightScore::add(const EngineSnapshot& tick) {
   const double dt = last_time_ > 0 ? toSeconds(tick.time - last_time_) : 0.0;
   last_time_ = tick.time;
   failsafes_ |= tick.failsafes;
-  phase_ = tick.phase;
   if (!rotorsTurn(tick.phase)) return;
   if (!tick.pose_known) lost_s_ += dt;
   for (std::size_t c = 0; c < static_cast<std::size_t>(tick.camera_count); ++c) {

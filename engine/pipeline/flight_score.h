@@ -54,7 +54,6 @@ class FlightScore {
     return converged_s_[static_cast<std::size_t>(camera.index())];
   }
   std::uint32_t failsafes() const { return failsafes_; }
-  FlightPhase phase() const { return phase_; }
 
  private:
   double mean(double sum) const { return nees_samples_ > 0 ? sum / static_cast<double>(nees_samples_) : 0.0; }
@@ -69,7 +68,6 @@ class FlightScore {
   TimeNs last_time_ = 0;
   TimeNs hover_since_ = -1;
   std::uint32_t failsafes_ = 0;
-  FlightPhase phase_ = FlightPhase::kIdle;
   std::array<std::uint64_t, kMaxCameras> selected_{};
   std::array<std::uint64_t, kMaxCameras> shown_{};
   std::array<TimeNs, kMaxCameras> last_exposure_{};

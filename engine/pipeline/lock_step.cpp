@@ -29,12 +29,7 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   output_.submit(loop_.onTick(now, gated), now);
   output_.step(now);
   snapshot_ = loop_.snapshot();
-  hardware_.world->advanceTo(now);
-  if (const auto truth = hardware_.world->at(now)) {
-    snapshot_.has_truth = true;
-    snapshot_.truth = truth->state;
-    snapshot_.verdict = hardware_.world->verdict();
-  }
+  hardware_.addTruth(snapshot_, now);
   return snapshot_;
 }
 

@@ -7,6 +7,16 @@
 
 namespace helical {
 
+void RigHardware::addTruth(EngineSnapshot& snapshot, TimeNs now) const {
+  if (!world) return;
+  world->advanceTo(now);
+  const auto truth = world->at(now);
+  if (!truth) return;
+  snapshot.has_truth = true;
+  snapshot.truth = truth->state;
+  snapshot.verdict = world->verdict();
+}
+
 RigidTransform trueCameraFromWorld(const RigConfig& rig, CameraId id) {
   const auto index = static_cast<std::size_t>(id.index());
   const auto& truths = rig.simulation.true_camera_from_world;

@@ -8,6 +8,7 @@
 #include "engine/base/clock.h"
 #include "engine/config/rig_config.h"
 #include "engine/markers/extracting_source.h"
+#include "engine/pipeline/snapshot.h"
 #include "engine/simulator/world.h"
 #include "engine/transmitter/transmitter.h"
 
@@ -20,6 +21,9 @@ struct RigHardware {
   std::vector<std::unique_ptr<ObservationSource>> sources;
   std::unique_ptr<Transmitter> transmitter;
   std::shared_ptr<World> world;
+
+  /// Adds the truth of a simulated rig to a snapshot taken at `now`; leaves that of a real one alone.
+  void addTruth(EngineSnapshot& snapshot, TimeNs now) const;
 };
 
 /// Where a simulated camera truly is before anybody knocks it. Throws Error(kInput) when the rig does not

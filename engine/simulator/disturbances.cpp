@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/geometry/rotation.h"
+#include "engine/geometry/camera_perturbation.h"
 
 namespace helical {
 namespace {
@@ -15,12 +15,10 @@ Eigen::Vector3d randomDirection(Random& random) {
 }
 
 RigidTransform moved(const RigidTransform& camera_from_world, double angle, double distance, Random& random) {
-  const Eigen::Vector3d axis = randomDirection(random);
-  const Eigen::Vector3d centre = camera_from_world.inverseTranslation() + distance * randomDirection(random);
-  RigidTransform pose;
-  pose.rotation = (expSO3(angle * axis) * camera_from_world.rotation).normalized();
-  pose.translation = -(pose.rotation * centre);
-  return pose;
+  Vector6d perturbation;
+  perturbation.head<3>() = angle * randomDirection(random);
+  perturbation.tail<3>() = distance * randomDirection(random);
+  return perturbCamera(camera_from_world, perturbation);
 }
 
 }  // namespace

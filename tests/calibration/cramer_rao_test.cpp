@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/calibration/camera_perturbation.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 #include "tests/calibration/training_flight.h"
 
@@ -33,7 +34,7 @@ Matrix6d numericCovariance(const TrainingFlight& flight, const std::vector<std::
         const RigidTransform& body = frame.true_world_from_body;
         const RigidTransform moved{body.rotation * expSO3(change.tail<3>()),
                                    body.translation + change.segment<3>(6)};
-        return *flight.camera.project(perturbed(flight.camera_from_world, change.head<6>()) *
+        return *flight.camera.project(perturbCamera(flight.camera_from_world, change.head<6>()) *
                                       (moved * flight.markers.inBody(marker)));
       };
       Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, size);

@@ -12,6 +12,7 @@
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/exponential.h"
 #include "engine/calibration/particle_cloud.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -96,7 +97,7 @@ TEST(ParticleCloud, IsSeededWithTheMomentsAskedFor) {
   const Matrix6d covariance = someCovariance(random);
   ParticleCloud cloud(20000);
   cloud.seed(somePose(), covariance, random);
-  const Vector6d off = perturbationBetween(somePose(), cloud.mean());
+  const Vector6d off = cameraPerturbation(somePose(), cloud.mean());
   EXPECT_LT(off.dot(covariance.ldlt().solve(off)), 30.0 / 20000.0);
   EXPECT_LT(largestDifference(cloud.moments().covariance, covariance), 0.05);
   EXPECT_NEAR(cloud.effectiveSampleSize(), 20000.0, 1e-6);
@@ -120,7 +121,7 @@ TEST(ParticleCloud, ResamplingKeepsMeanAndCovariance) {
     const RigidTransform mean = cloud.mean();
     const Matrix6d covariance = cloud.moments().covariance;
     cloud.resample(kernel, random);
-    const Vector6d off = perturbationBetween(mean, cloud.mean());
+    const Vector6d off = cameraPerturbation(mean, cloud.mean());
     EXPECT_LT(off.dot(covariance.ldlt().solve(off)), 60.0 / count) << kernel;
     EXPECT_LT(largestDifference(cloud.moments().covariance, covariance), 0.08) << kernel;
     EXPECT_NEAR(cloud.effectiveSampleSize(), count, 1e-6);

@@ -8,6 +8,7 @@
 
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/pose_modes.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 #include "tests/calibration/training_flight.h"
 
@@ -30,12 +31,12 @@ TEST(Perturbation, UndoesItselfAndHasTheJacobianItClaims) {
   const Eigen::Vector3d marker = flight.markers.inBody(markerId(2));
   Vector6d change;
   change << 0.1, -0.2, 0.05, 0.3, 0.1, -0.4;
-  EXPECT_LT((perturbationBetween(camera, perturbed(camera, change)) - change).norm(), 1e-12);
+  EXPECT_LT((cameraPerturbation(camera, perturbCamera(camera, change)) - change).norm(), 1e-12);
 
   const auto at = [&](const Vector6d& of_camera, const Vector6d& of_pose) {
     const RigidTransform moved{body.rotation * expSO3(of_pose.tail<3>()),
                                body.translation + of_pose.head<3>()};
-    return projectMarker(flight.camera, perturbed(camera, of_camera), moved, marker)->pixel;
+    return projectMarker(flight.camera, perturbCamera(camera, of_camera), moved, marker)->pixel;
   };
   const auto projection = projectMarker(flight.camera, camera, body, marker);
   ASSERT_TRUE(projection.has_value());
@@ -73,7 +74,7 @@ TEST(Resect, KnowsHowGoodItIs) {
     const FrameStore store = storeOf(flight, 60);
     const MarginalResection solution =
         resect(flight.camera, flight.markers, store.frames(), flight.camera_from_world, {.iterations = 30});
-    const Vector6d error = perturbationBetween(flight.camera_from_world, solution.camera_from_world);
+    const Vector6d error = cameraPerturbation(flight.camera_from_world, solution.camera_from_world);
     sum += error.dot(solution.information * error) / 6.0;
   }
   // 360 squared normal deviates: 0.75 to 1.25 is 3.3 standard deviations, the robust weight costs some more.

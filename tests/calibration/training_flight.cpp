@@ -8,6 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/cramer_rao.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical::test {
@@ -109,7 +110,7 @@ TrainingFlight flyForTraining(std::uint64_t seed, const TrainingFlightOptions& o
   Vector6d off;
   off.head<3>() = options.guess_rotation_rad * normalVector(random).normalized();
   off.tail<3>() = options.guess_position_m * normalVector(random).normalized();
-  flight.guess = perturbed(flight.camera_from_world, off);
+  flight.guess = perturbCamera(flight.camera_from_world, off);
 
   const std::array<MarkerId, 4> all{markerId(0), markerId(1), markerId(2), markerId(3)};
   const auto poses = hover(options.duration_s, random);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/flight_run.h"
+#include "engine/experiments/flight_run.h"
 
 namespace helical {
 

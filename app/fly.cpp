@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/flight_report.h"
-#include "app/flight_run.h"
+#include "engine/experiments/flight_run.h"
 #include "app/option_values.h"
 #include "app/progress.h"
 #include "engine/base/error.h"

@@ -5,7 +5,7 @@
 
 #include "engine/calibration/admission.h"
 #include "engine/calibration/calibrator_factory.h"
-#include "engine/calibration/label_keeper.h"
+#include "engine/correspondence/label_keeper.h"
 #include "engine/correspondence/labelling_search.h"
 #include "engine/tracking/track.h"
 

@@ -25,6 +25,7 @@ UI_MAY_INCLUDE = re.compile(
     r"|engine/(base|geometry|helicopter)/\w+\.h"
     r"|engine/cameras/frame\.h"
     r"|engine/markers/observation\.h"
+    r"|engine/experiments/flight_trace\.h"
     r"|engine/tracking/track\.h)$"
 )
 

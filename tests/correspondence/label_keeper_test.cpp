@@ -1,4 +1,4 @@
-#include "engine/calibration/label_keeper.h"
+#include "engine/correspondence/label_keeper.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/flight_run.h"
+#include "engine/experiments/flight_run.h"
 
 #include <chrono>
 #include <memory>

@@ -32,6 +32,9 @@ class LabelKeeper {
   /// Names for the centroids of a later frame; nobody has one while lost.
   Names follow(const Observation& observation);
 
+  /// Gives the names up.
+  void forget() { lost_ = true; }
+
   bool lost() const { return lost_; }
 
  private:

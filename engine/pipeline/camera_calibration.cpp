@@ -75,7 +75,7 @@ void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector
   } else if (doubtful_since_ < 0) {
     doubtful_since_ = frame.exposure;
   } else if (toSeconds(frame.exposure - doubtful_since_) > kDoubtLasts) {
-    labels_.restart({}, Names{});  // names nobody: the next frame seeks anew
+    labels_.forget();  // the next frame seeks anew
     doubtful_since_ = -1;
   }
 }

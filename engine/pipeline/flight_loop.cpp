@@ -27,7 +27,8 @@ std::vector<CameraModel> models(const RigConfig& rig) {
 
 FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
     : rig_(rig),
-      tracker_(rig.tracking, rig.markers_in_body, models(rig), rig.helicopter.standing_height),
+      tracker_(makeTracker(rig.tracker, rig.tracking, rig.markers_in_body, models(rig),
+                           rig.helicopter.standing_height)),
       autopilot_(plan, rig.control, rig.safety, rig.helicopter) {
   snapshot_.camera_count = static_cast<int>(rig.cameras.size());
   snapshot_.marker_count = rig.markers_in_body.count();
@@ -56,27 +57,28 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
     usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !snapshot_.cameras[i].hidden;
   const std::size_t cameras = rig_.cameras.size();
   if (now - observation.exposure > kLatest) return;
-  const TimeNs last_update = tracker_.lastUpdate();
-  tracker_.update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
-  if (tracker_.lastUpdate() != last_update) pose_time_ = now;
+  const TimeNs last_update = tracker_->lastUpdate();
+  tracker_->update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
+  if (tracker_->lastUpdate() != last_update) pose_time_ = now;
   calibrate(observation);
-  snapshot_.cameras[index].track = tracker_.track(observation.camera);
+  snapshot_.cameras[index].track = tracker_->track(observation.camera);
   work_since_tick_ += stopwatch().now() - begin;
 }
 
 void FlightLoop::calibrate(const Observation& observation) {
   const auto index = static_cast<std::size_t>(observation.camera.index());
-  if (!calibrations_[index] || snapshot_.cameras[index].hidden || !tracker_.acquired()) return;
+  if (!calibrations_[index] || snapshot_.cameras[index].hidden || !tracker_->acquired()) return;
   // The pose must come from others, two at least: a camera that teaches itself confirms its own error.
   int teachers = 0;
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    const CameraTrack& track = tracker_.track(cameraId(static_cast<int>(i)));
+    const CameraTrack& track = tracker_->track(cameraId(static_cast<int>(i)));
     if (i != index && usable_[i] && track.selected_count >= 2 &&
         observation.exposure - track.exposure < kTeaching)
       ++teachers;
   }
-  if (teachers < 2) return;
-  calibrations_[index]->step(observation, tracker_.predict(observation.exposure, airborne_));
+  if (teachers < 2 && !rig_.learn_from_own_pose) return;
+  if (observation.exposure - tracker_->lastUpdate() > kTeaching) return;
+  calibrations_[index]->step(observation, tracker_->predict(observation.exposure, airborne_));
   estimates_[index] = calibrations_[index]->estimate();
 }
 
@@ -101,9 +103,9 @@ const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& comman
   const TimeNs begin = stopwatch().now();
   AutopilotInput input;
   input.now = now;
-  input.pose_known = tracker_.acquired();
+  input.pose_known = tracker_->acquired();
   input.pose_age_s = toSeconds(now - pose_time_);
-  input.state = tracker_.predict(now + fromSeconds(rig_.control.output_delay_s), airborne_).state;
+  input.state = tracker_->predict(now + fromSeconds(rig_.control.output_delay_s), airborne_).state;
   input.commands = commands;
   const AutopilotOutput output = autopilot_.step(input);
   airborne_ = output.airborne;
@@ -125,12 +127,12 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   if (output.phase != FlightPhase::kOff && started_ >= 0) snapshot_.flight_time_s = toSeconds(now - started_);
   snapshot_.time = now;
   ++snapshot_.tick;
-  snapshot_.pose_known = tracker_.acquired() && age <= rig_.safety.coast_after_s;
+  snapshot_.pose_known = tracker_->acquired() && age <= rig_.safety.coast_after_s;
   snapshot_.pose_age = now - pose_time_;
   snapshot_.phase = output.phase;
   snapshot_.safety = output.safety;
   snapshot_.failsafes = output.failsafes;
-  snapshot_.tracked = tracker_.predict(now, airborne_);
+  snapshot_.tracked = tracker_->predict(now, airborne_);
   snapshot_.set_point = output.set_point;
   snapshot_.hovering = output.hovering;
   snapshot_.pad_height = output.pad_height;

@@ -44,7 +44,7 @@ class FlightLoop {
   void fillSnapshot(TimeNs now, const AutopilotOutput& output);
 
   RigConfig rig_;
-  Tracker tracker_;
+  std::unique_ptr<Tracker> tracker_;
   Autopilot autopilot_;
   EngineSnapshot snapshot_;
   std::array<CameraEstimate, kMaxCameras> estimates_;

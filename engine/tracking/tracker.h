@@ -1,93 +1,45 @@
 #pragma once
 
-#include <array>
+#include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
-#include "engine/correspondence/prediction_naming.h"
 #include "engine/geometry/camera_estimate.h"
 #include "engine/geometry/camera_model.h"
 #include "engine/helicopter/marker_layout.h"
 #include "engine/markers/observation.h"
-#include "engine/tracking/acquisition.h"
-#include "engine/tracking/adaptive_noise.h"
-#include "engine/tracking/motion_model.h"
 #include "engine/tracking/track.h"
 #include "engine/tracking/tracker_options.h"
 
 namespace helical {
 
-/// Helicopter pose and velocity from the named centroids of every usable camera, each at its own exposure
-/// time: an extended Kalman filter on pixels (position, velocity, attitude, body rates), tightly coupled, so
-/// that any number of markers in any number of cameras counts, down to a few in one. Features are selected as
-/// follows: predict the pose and project the balls; gate by Mahalanobis distance; drop the worst until the
-/// rest pass a joint test; let a rejected feature back in after it has agreed twice; coast on the motion
-/// model when none is left. A gap longer than `reacquire_after_s` ends in a new acquisition. Allocates
-/// nothing after construction. One thread.
+/// Helicopter pose and velocity from what every usable camera sees. One thread; allocates nothing after
+/// construction.
 class Tracker {
  public:
-  Tracker(const TrackerOptions& options, const MarkerLayout& markers, std::vector<CameraModel> cameras,
-          double standing_height);
+  virtual ~Tracker() = default;
 
-  /// Takes in what one camera saw. Cameras that are not `usable` are not looked at. Observations of different
-  /// cameras may come out of order by 30 ms; older ones are not used.
-  void update(const Observation& observation, std::span<const CameraEstimate> cameras,
-              std::span<const bool> usable, bool airborne);
+  /// Takes in what one camera saw. Cameras that are not `usable` are not looked at.
+  virtual void update(const Observation& observation, std::span<const CameraEstimate> cameras,
+                      std::span<const bool> usable, bool airborne) = 0;
 
   /// Whether a pose was ever found.
-  bool acquired() const { return acquired_; }
+  virtual bool acquired() const = 0;
   /// Exposure time of the last observation that was used.
-  TimeNs lastUpdate() const { return last_update_; }
-  /// State and covariance at `time`, by the motion model. The covariance includes what offsets of the
-  /// centroids that stay for many frames may do: averaging over frames does not lower it.
-  TrackedState predict(TimeNs time, bool airborne) const;
+  virtual TimeNs lastUpdate() const = 0;
+  /// State and covariance at `time`, by the tracker's model of motion.
+  virtual TrackedState predict(TimeNs time, bool airborne) const = 0;
   /// What was made of the newest observation of a camera.
-  const CameraTrack& track(CameraId camera) const {
-    return tracks_[static_cast<std::size_t>(camera.index())];
-  }
-
- private:
-  using Jacobian = Eigen::Matrix<double, 2, 6>;  // of a pixel to (position, rotation vector)
-  struct Feature {
-    MarkerPrediction prediction;
-    Jacobian d_pose = Jacobian::Zero();
-    Jacobian d_camera = Jacobian::Zero();
-    Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
-    bool selected = false;
-  };
-  using Features = std::array<Feature, kMaxMarkers>;
-
-  PosePrior priorAt(TimeNs time, bool airborne) const;
-  void restart(const PoseFit& fit, TimeNs time);
-  void predictFeatures(const Observation& observation, const CameraEstimate& estimate,
-                       Features& features) const;
-  void nameFeatures(const Observation& observation, Features& features, CameraTrack& track) const;
-  void select(CameraId camera, const CameraEstimate& estimate, Features& features);
-  /// Kalman update with the selected features; false if it would not be finite.
-  bool correct(const CameraEstimate& estimate, const Features& features, bool airborne);
-  Matrix6d biasCovariance(TimeNs time) const;
-  void report(const Observation& observation, const CameraEstimate& estimate, const Features& features,
-              CameraTrack& track) const;
-
-  TrackerOptions options_;
-  MarkerLayout markers_;
-  std::vector<CameraModel> cameras_;
-  double standing_height_;
-  MotionModel model_;
-  AdaptiveNoise noise_;
-  Acquisition acquisition_;
-
-  bool acquired_ = false;
-  TimeNs time_ = 0;
-  TimeNs last_update_ = 0;
-  HelicopterState state_;
-  Matrix12d covariance_ = Matrix12d::Identity();
-  HelicopterState last_good_;
-  double agreement_ = 1.0;  ///< running share of the centroids in view that fitted
-  std::array<std::array<std::uint8_t, kMaxMarkers>, kMaxCameras> probation_{};
-  std::array<Matrix6d, kMaxCameras> view_information_;  ///< of a camera's newest selected features, per px^-2
-  std::array<CameraTrack, kMaxCameras> tracks_{};
+  virtual const CameraTrack& track(CameraId camera) const = 0;
 };
+
+/// "helical", the default: `PixelFilter`; "paper": `LatestImagesTracker`.
+std::span<const std::string_view> trackerNames();
+
+/// Throws Error(kInput) listing the names for an unknown one.
+std::unique_ptr<Tracker> makeTracker(std::string_view name, const TrackerOptions& options,
+                                     const MarkerLayout& markers, std::vector<CameraModel> cameras,
+                                     double standing_height);
 
 }  // namespace helical

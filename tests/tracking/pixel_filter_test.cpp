@@ -1,4 +1,4 @@
-#include "engine/tracking/tracker.h"
+#include "engine/tracking/pixel_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ struct Flight {
   Field field;
   Motion motion;
   Random random;
-  Tracker tracker;
+  PixelFilter tracker;
   std::function<RigidTransform(double)> truth;
   std::function<void(Observation&)> spoil;
   std::array<double, 3> next{0.0, 0.004, 0.011};
@@ -122,12 +122,12 @@ struct Flight {
   }
 };
 
-TEST(Tracker, KnowsNothingBeforeItSawAnything) {
+TEST(PixelFilter, KnowsNothingBeforeItSawAnything) {
   const Flight flight;
   EXPECT_FALSE(flight.tracker.acquired());
 }
 
-TEST(Tracker, FollowsASmoothFlightWithUnsynchronisedCameras) {
+TEST(PixelFilter, FollowsASmoothFlightWithUnsynchronisedCameras) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Flight flight(seed);
     flight.runUntil(0.3);
@@ -139,7 +139,7 @@ TEST(Tracker, FollowsASmoothFlightWithUnsynchronisedCameras) {
   }
 }
 
-TEST(Tracker, ErrorsAreAsLargeAsTheCovarianceSays) {
+TEST(PixelFilter, ErrorsAreAsLargeAsTheCovarianceSays) {
   double sum = 0.0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -157,7 +157,7 @@ TEST(Tracker, ErrorsAreAsLargeAsTheCovarianceSays) {
   EXPECT_LT(sum / count, 9.0);
 }
 
-TEST(Tracker, PredictsAheadAndBack) {
+TEST(PixelFilter, PredictsAheadAndBack) {
   Flight flight;
   flight.runUntil(4.0);
   for (const double ahead : {-0.01, 0.0, 0.02, 0.05}) {
@@ -169,7 +169,7 @@ TEST(Tracker, PredictsAheadAndBack) {
   EXPECT_GT(far, 2.0 * near);
 }
 
-TEST(Tracker, RejectsOutliersAndDoesNotSelectThem) {
+TEST(PixelFilter, RejectsOutliersAndDoesNotSelectThem) {
   Flight flight;
   flight.runUntil(3.0);
   int seen = 0, selected = 0;
@@ -189,7 +189,7 @@ TEST(Tracker, RejectsOutliersAndDoesNotSelectThem) {
   EXPECT_TRUE(flight.tracker.track(cameraId(0)).markers[2].selected) << "and lets it back in";
 }
 
-TEST(Tracker, BearsSwappedFalseAndMergedCentroids) {
+TEST(PixelFilter, BearsSwappedFalseAndMergedCentroids) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Flight flight(seed);
     Random luck(seed);
@@ -212,7 +212,7 @@ TEST(Tracker, BearsSwappedFalseAndMergedCentroids) {
 }
 
 /// Half of a ball is hidden and its centre of gravity lies aside: the pose should hardly notice.
-TEST(Tracker, PartlyHiddenBallHasLittleWeight) {
+TEST(PixelFilter, PartlyHiddenBallHasLittleWeight) {
   const auto errorWith = [](double area) {
     Flight flight(3);
     flight.runUntil(3.0);
@@ -234,7 +234,7 @@ TEST(Tracker, PartlyHiddenBallHasLittleWeight) {
   EXPECT_LT(errorWith(0.5), 0.5 * errorWith(1.0));
 }
 
-TEST(Tracker, FliesOnOneCameraForAWhile) {
+TEST(PixelFilter, FliesOnOneCameraForAWhile) {
   Flight flight;
   flight.runUntil(2.5);
   flight.field.usable[1] = flight.field.usable[2] = false;
@@ -243,7 +243,7 @@ TEST(Tracker, FliesOnOneCameraForAWhile) {
   EXPECT_LT(radians, 0.15);
 }
 
-TEST(Tracker, FliesOnTwoMarkersPerCamera) {
+TEST(PixelFilter, FliesOnTwoMarkersPerCamera) {
   Flight flight;
   flight.runUntil(2.5);
   flight.spoil = [](Observation& o) {
@@ -255,7 +255,7 @@ TEST(Tracker, FliesOnTwoMarkersPerCamera) {
   EXPECT_LT(radians, 0.12);
 }
 
-TEST(Tracker, SingleCentroidIsNoPose) {
+TEST(PixelFilter, SingleCentroidIsNoPose) {
   Flight flight;
   flight.runUntil(2.5);
   flight.spoil = [](Observation& o) { o.count = std::min(o.count, 1); };
@@ -264,7 +264,7 @@ TEST(Tracker, SingleCentroidIsNoPose) {
   EXPECT_LE(toSeconds(flight.tracker.lastUpdate() - last), 0.02) << "anything green may be one ball";
 }
 
-TEST(Tracker, FindsItselfAgainAfterAGap) {
+TEST(PixelFilter, FindsItselfAgainAfterAGap) {
   for (const double gap : {0.06, 0.3, 0.8}) {
     Flight flight(4);
     flight.runUntil(3.0);
@@ -280,7 +280,7 @@ TEST(Tracker, FindsItselfAgainAfterAGap) {
 }
 
 /// A pose that is wrong by a quarter turn explains an almost square layout in part only: it is left.
-TEST(Tracker, LeavesAPoseThatExplainsTooLittle) {
+TEST(PixelFilter, LeavesAPoseThatExplainsTooLittle) {
   Flight flight(5);
   flight.runUntil(3.0);
   const RigidTransform before = flight.motion.at(3.0);
@@ -292,7 +292,7 @@ TEST(Tracker, LeavesAPoseThatExplainsTooLittle) {
   EXPECT_LT(flight.angleError(), 0.05);
 }
 
-TEST(Tracker, LeavesAWrongHeightAndTiltToo) {
+TEST(PixelFilter, LeavesAWrongHeightAndTiltToo) {
   Flight flight(6);
   flight.runUntil(3.0);
   const RigidTransform before = flight.motion.at(3.0);
@@ -303,7 +303,7 @@ TEST(Tracker, LeavesAWrongHeightAndTiltToo) {
   EXPECT_LT(flight.positionError(), 0.01);
 }
 
-TEST(Tracker, UncertainCameraCountsLess) {
+TEST(PixelFilter, UncertainCameraCountsLess) {
   const auto pulled = [](double sigma) {
     Flight flight(7), clean(7);
     for (Flight* one : {&flight, &clean}) {
@@ -326,7 +326,7 @@ TEST(Tracker, UncertainCameraCountsLess) {
   EXPECT_LT(pulled(0.01), 0.2 * pulled(0.0));
 }
 
-TEST(Tracker, UncertainCamerasMakeAnUncertainPose) {
+TEST(PixelFilter, UncertainCamerasMakeAnUncertainPose) {
   const auto trace = [](double sigma) {
     Flight flight(8);
     for (auto& estimate : flight.field.estimates) estimate.covariance = sigma * sigma * Matrix6d::Identity();
@@ -336,7 +336,7 @@ TEST(Tracker, UncertainCamerasMakeAnUncertainPose) {
   EXPECT_GT(trace(0.01), 1.5 * trace(0.0));
 }
 
-TEST(Tracker, ReportsWhatEachCameraSaw) {
+TEST(PixelFilter, ReportsWhatEachCameraSaw) {
   Flight flight;
   flight.runUntil(3.0);
   for (int c = 0; c < 3; ++c) {
@@ -354,7 +354,7 @@ TEST(Tracker, ReportsWhatEachCameraSaw) {
   }
 }
 
-TEST(Tracker, DoesNotLookAtUnusableCameras) {
+TEST(PixelFilter, DoesNotLookAtUnusableCameras) {
   Flight flight;
   flight.field.usable[1] = false;
   // Its pose is nonsense, as of a camera that nobody has calibrated.
@@ -373,7 +373,7 @@ TEST(Tracker, DoesNotLookAtUnusableCameras) {
   EXPECT_GT(track.exposure, 0) << "but it says when the camera last looked";
 }
 
-TEST(Tracker, DoesNotStartOnAHelicopterPutDownTheWrongWay) {
+TEST(PixelFilter, DoesNotStartOnAHelicopterPutDownTheWrongWay) {
   Flight flight;
   flight.truth = [](double) {
     return RigidTransform{expSO3({0, 0, 0.5 * kPi}), {0.0, 0.0, kStandingHeight}};

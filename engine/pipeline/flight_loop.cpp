@@ -49,6 +49,17 @@ void FlightLoop::hideCamera(CameraId camera, bool hidden) {
   snapshot_.cameras[static_cast<std::size_t>(camera.index())].hidden = hidden;
 }
 
+void FlightLoop::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
+  const auto index = static_cast<std::size_t>(camera.index());
+  if (!calibrations_[index] || !calibration) return;
+  calibrations_[index].swap(calibration);
+  estimates_[index] = calibrations_[index]->estimate();
+}
+
+const CameraCalibration* FlightLoop::calibration(CameraId camera) const {
+  return calibrations_[static_cast<std::size_t>(camera.index())].get();
+}
+
 void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   const TimeNs begin = stopwatch().now();
   const auto index = static_cast<std::size_t>(observation.camera.index());

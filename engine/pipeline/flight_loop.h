@@ -27,6 +27,12 @@ class FlightLoop {
   /// The operator hides a camera: its observations count as frames, but nothing they show is used.
   void hideCamera(CameraId camera, bool hidden);
 
+  /// Puts another calibration in the place of a camera's own and hands that back: the camera leaves the
+  /// control set until the new one is admitted. For cameras that have one; allocates and frees nothing.
+  void swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration);
+  /// Null for a camera whose pose was given.
+  const CameraCalibration* calibration(CameraId camera) const;
+
   /// State after the last tick.
   const EngineSnapshot& snapshot() const { return snapshot_; }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/flight_report.h"
-#include "engine/experiments/flight_run.h"
 #include "app/option_values.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
@@ -16,20 +15,16 @@
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
+#include "engine/experiments/flight_run.h"
 #include "engine/geometry/rotation.h"
-#include "engine/pipeline/rig_hardware.h"
-#include "engine/simulator/disturbances.h"
-#include "engine/simulator/random_streams.h"
+#include "engine/pipeline/first_guess.h"
 
 namespace helical {
 namespace {
 
-constexpr double kBeforeStartS = 0.5;  // of a session: empty field, finding the pose
-constexpr double kInitialErrorDeg = 15.0, kInitialErrorM = 0.4;  // the paper's experiments
-constexpr double kLandingS = 6.0;                                // descent and rotors off
+constexpr int kProgressTicks = 60;
 constexpr double kLongestLiftOffS = 8.0;
 constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
-constexpr double kShortestFlightS = 6.0;
 constexpr double kTimeToSpare = 20.0;  // beyond the plan's landing before a flight counts as aborted
 
 struct FlyArguments {
@@ -52,23 +47,13 @@ struct FlyArguments {
   double rate = -1.0;
 };
 
-/// Gives cameras without a pose a first guess, so far from the truth and in a direction drawn for the seed,
-/// and the method that makes a calibration of it.
+/// Cameras without a pose get a first guess and the method that makes a calibration of it.
 void calibrateInFlight(const FlyArguments& arguments, RigConfig& rig) {
   if (!arguments.calibrator.empty()) rig.calibrator = arguments.calibrator;
   const bool given = arguments.initial_error.size() == 2;
   if (arguments.calibrator.empty() && !given) return;
-  const double degrees = given ? arguments.initial_error[0] : kInitialErrorDeg;
-  const double metres = given ? arguments.initial_error[1] : kInitialErrorM;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    CameraConfig& camera = rig.cameras[i];
-    const bool has_guess = camera.pose_is_guess && !given;
-    if (has_guess || (camera.camera_from_world && !camera.pose_is_guess)) continue;
-    const CameraId id = cameraId(static_cast<int>(i));
-    camera.camera_from_world = displaced(trueCameraFromWorld(rig, id), toRadians(degrees), metres,
-                                         randomStream(arguments.seed, RandomStream::kFirstGuesses, id));
-    camera.pose_is_guess = true;
-  }
+  giveFirstGuesses(rig, toRadians(given ? arguments.initial_error[0] : kFirstGuessErrorDeg),
+                   given ? arguments.initial_error[1] : kFirstGuessErrorM, arguments.seed, given);
 }
 
 RigConfig configuredRig(const FlyArguments& arguments) {
@@ -98,15 +83,7 @@ RigConfig configuredRig(const FlyArguments& arguments) {
 
 FlightPlan configuredPlan(const FlyArguments& arguments) {
   FlightPlan plan = loadPlan(planPath(arguments.plan));
-  if (arguments.duration_s > 0.0) {
-    plan.land_at_s = arguments.duration_s - kBeforeStartS - plan.start_delay_s - kLandingS;
-    if (plan.land_at_s < kShortestFlightS)
-      throw Error(ErrorKind::kInput,
-                  "--duration " + std::to_string(arguments.duration_s) + " is too short to fly", {},
-                  "give at least " +
-                      std::to_string(kBeforeStartS + plan.start_delay_s + kLandingS + kShortestFlightS) +
-                      " seconds");
-  }
+  if (arguments.duration_s > 0.0) landWithin(plan, arguments.duration_s);
   return plan;
 }
 
@@ -139,7 +116,8 @@ int fly(const FlyArguments& arguments) {
   {
     Progress progress("Flying " + plan.name);
     run = runFlight(rig, plan, planned_s + kTimeToSpare, arguments.realtime, [&](const EngineSnapshot& now) {
-      progress.update(toSeconds(now.time) / planned_s, toString(now.phase));
+      if (now.tick % kProgressTicks == 0)
+        progress.update(toSeconds(now.time) / planned_s, toString(now.phase));
     });
   }
   const std::string report = arguments.json ? flightJson(run, rig) + "\n" : flightText(run, rig);

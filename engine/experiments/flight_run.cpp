@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "engine/base/clock.h"
+#include "engine/base/error.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/lock_step.h"
 #include "engine/pipeline/rig_hardware.h"
@@ -13,6 +14,7 @@ namespace helical {
 namespace {
 
 constexpr double kAfterwardsS = 0.5;  // watched after the flight has ended
+constexpr double kShortestFlightS = 6.0;
 
 /// The operator of a headless flight: orders the take-off once the pose is known, and knows when it is over.
 class Operator {
@@ -40,24 +42,24 @@ class Operator {
   TimeNs ended_ = -1;
 };
 
-void fly(LockStep& flight, Operator& pilot, FlightRun& run, const FlightProgress& progress) {
+void fly(LockStep& flight, Operator& pilot, FlightRun& run, const TickListener& listener) {
   OperatorCommands commands;
   do {
     run.last = flight.tick(commands);
     run.score.add(run.last);
     commands.take_off = pilot.wantsTakeOff(run.last);
-    if (run.last.tick % 60 == 0) progress(run.last);
+    listener(run.last);
   } while (!pilot.isOver(run.last));
 }
 
-void fly(Engine& engine, Operator& pilot, FlightRun& run, const FlightProgress& progress) {
+void fly(Engine& engine, Operator& pilot, FlightRun& run, const TickListener& listener) {
   engine.start();
   for (bool over = false; !over;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     while (!over && engine.nextTick(run.last)) {
       run.score.add(run.last);
       if (pilot.wantsTakeOff(run.last)) engine.takeOff();
-      if (run.last.tick % 60 == 0) progress(run.last);
+      listener(run.last);
       over = pilot.isOver(run.last);
     }
   }
@@ -66,8 +68,17 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const FlightProgress& 
 
 }  // namespace
 
+void landWithin(FlightPlan& plan, double session_s) {
+  const double around = kBeforeStartS + plan.start_delay_s + kLandingS;
+  if (session_s < around + kShortestFlightS)
+    throw Error(ErrorKind::kInput,
+                "a session of " + std::to_string(session_s) + " seconds is too short to fly", {},
+                "give at least " + std::to_string(around + kShortestFlightS) + " seconds");
+  plan.land_at_s = session_s - around;
+}
+
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
-                    const FlightProgress& progress) {
+                    const TickListener& listener) {
   FlightRun run;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     run.true_cameras.push_back(trueCameraFromWorld(rig, cameraId(static_cast<int>(i))));
@@ -76,12 +87,12 @@ FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s
   if (realtime) {
     Engine engine(rig, plan);
     const MonotonicClock stopwatch;
-    fly(engine, pilot, run, progress);
+    fly(engine, pilot, run, listener);
     run.wall_s = toSeconds(stopwatch.now());
   } else {
     LockStep flight(rig, plan);
     const MonotonicClock stopwatch;
-    fly(flight, pilot, run, progress);
+    fly(flight, pilot, run, listener);
     run.wall_s = toSeconds(stopwatch.now());
   }
   return run;

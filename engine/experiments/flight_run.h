@@ -17,12 +17,20 @@ struct FlightRun {
   double wall_s = 0.0;
 };
 
-/// Called about once per simulated second with the newest state.
-using FlightProgress = std::function<void(const EngineSnapshot&)>;
+/// Called with the state after every control tick.
+using TickListener = std::function<void(const EngineSnapshot&)>;
+
+/// Time a session needs before the rotors start (empty field, finding the pose) and to land.
+inline constexpr double kBeforeStartS = 0.5;
+inline constexpr double kLandingS = 6.0;
+
+/// Makes the plan land so that a session is over after `session_s`. Throws Error(kInput) when that is too
+/// short to fly.
+void landWithin(FlightPlan& plan, double session_s);
 
 /// Flies the plan from take-off to rest (or crash, or `limit_s`), headless: in lock step, or with `realtime`
 /// in the engine's own threads at the pace of the wall clock.
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
-                    const FlightProgress& progress);
+                    const TickListener& listener);
 
 }  // namespace helical

@@ -11,7 +11,9 @@
 #include <memory>
 
 #include "engine/base/error.h"
+#include "engine/geometry/rotation.h"
 #include "engine/pipeline/engine.h"
+#include "engine/pipeline/first_guess.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
 
@@ -65,7 +67,8 @@ void printFirstImage(qint64 since_process_start) {
 
 }  // namespace
 
-int runWindow(int argc, char** argv, const RigConfig& rig, const FlightPlan& plan, bool auto_take_off) {
+int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool auto_take_off) {
+  giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
   requireDisplay();
   preferGlx();
   keepSoftwareRendererModest();

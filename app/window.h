@@ -5,10 +5,11 @@
 
 namespace helical {
 
-/// Opens the ground-control window on this rig and returns its exit code when it is closed. With
+/// Opens the ground-control window on this rig and returns its exit code when it is closed. Simulated cameras
+/// without a pose get a first guess and are calibrated in flight. With
 /// `auto_take_off` the plan begins as soon as the pose is known. Throws Error(kSystem) where there is no
 /// display, and what the engine throws when it cannot start. HELICAL_PRINT_STARTUP=1 prints the time to the
 /// first picture on stderr.
-int runWindow(int argc, char** argv, const RigConfig& rig, const FlightPlan& plan, bool auto_take_off);
+int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool auto_take_off);
 
 }  // namespace helical

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/base/error.h"
 #include "engine/base/spsc_queue.h"
 #include "engine/pipeline/flight_loop.h"
+#include "engine/pipeline/hand_over.h"
 #include "engine/pipeline/output_loop.h"
 #include "engine/pipeline/rig_hardware.h"
 
@@ -21,6 +23,7 @@ namespace {
 constexpr TimeNs kOutputPeriod = 5 * kNanosecondsPerMillisecond;
 constexpr TimeNs kPicturePeriod = 33 * kNanosecondsPerMillisecond;
 constexpr TimeNs kLongestWait = 20 * kNanosecondsPerMillisecond;
+constexpr std::uint64_t kCalibrationViewTicks = 2;
 
 using ObservationQueue = SpscQueue<Observation, 16>;
 
@@ -71,6 +74,33 @@ SafetyText safetyText(SafetyState state) {
   return {Severity::kInfo, ""};
 }
 
+/// Every so many particles, so that the cloud keeps its shape.
+void fillView(const CameraCalibration& calibration, CalibrationView& view) {
+  const auto particles = calibration.calibrator().particles();
+  view.total = static_cast<int>(particles.size());
+  view.count = 0;
+  if (particles.empty()) return;
+  const std::size_t step =
+      (particles.size() + CalibrationView::kMaxParticles - 1) / CalibrationView::kMaxParticles;
+  float heaviest = 0.0F;
+  for (std::size_t i = 0; i < particles.size(); i += step) {
+    CalibrationView::Particle& particle = view.particles[static_cast<std::size_t>(view.count++)];
+    particle.centre_in_world = particles[i].camera_from_world.inverseTranslation().cast<float>();
+    particle.weight = static_cast<float>(particles[i].weight);
+    heaviest = std::max(heaviest, particle.weight);
+  }
+  if (heaviest <= 0.0F) return;
+  for (int i = 0; i < view.count; ++i) view.particles[static_cast<std::size_t>(i)].weight /= heaviest;
+}
+
+/// What of a camera is announced when it changes.
+struct AnnouncedCamera {
+  CameraStatus status = CameraStatus::kUncalibrated;
+  bool hidden = false;
+  int boards = 0;
+  std::uint32_t knocks = 0;
+};
+
 /// A copy of a capture thread's frames at display rate.
 class PictureTap {
  public:
@@ -117,7 +147,8 @@ struct Engine::Implementation {
                            taps[static_cast<std::size_t>(frame.camera.index())].take(frame, observation);
                          })),
         loop(rig, plan),
-        output(*hardware.transmitter) {
+        output(*hardware.transmitter),
+        calibrator(rig.calibrator) {
     for (std::size_t i = 0; i < hardware.sources.size(); ++i)
       queues.push_back(std::make_unique<ObservationQueue>());
   }
@@ -127,9 +158,20 @@ struct Engine::Implementation {
   void send(const std::stop_token& stop);
   void receive();
   void tick(TimeNs now);
+  void takeCalibrations(TimeNs now);
+  void showCalibrations(std::uint64_t tick);
+  void addOrders(EngineSnapshot& snapshot) const;
+  void replaceCalibration(std::size_t camera, const std::string& method);
   void announce(const EngineSnapshot& now);
+  void announceCamera(const EngineSnapshot& now, std::size_t camera);
   void raise(TimeNs time, Severity severity, const char* text) {
     lost += !events->push(event(time, severity, text));
+  }
+  /// "NAME: text".
+  void raise(TimeNs time, Severity severity, std::size_t camera, const char* text) {
+    std::array<char, 112> whole{};
+    std::snprintf(whole.data(), whole.size(), "%s: %s", rig.cameras[camera].name.c_str(), text);
+    raise(time, severity, whole.data());
   }
 
   const RigConfig rig;
@@ -149,6 +191,13 @@ struct Engine::Implementation {
   std::atomic<bool> take_off{false};
   std::atomic<bool> land{false};
   std::array<std::atomic<bool>, kMaxCameras> hidden{};
+  std::array<std::atomic<int>, kMaxCameras> boards{};  ///< how many; the capture threads have the boards
+  std::array<std::atomic<std::uint32_t>, kMaxCameras> knocks{};
+  std::atomic<TimeNs> gust_until{-1};
+  std::array<HandOver<CameraCalibration>, kMaxCameras> new_calibrations;
+  std::array<LatestValue<CalibrationView>, kMaxCameras> calibration_views;
+  std::string calibrator;               ///< reading thread
+  std::uint64_t calibrations_made = 0;  ///< reading thread
 
   LatestValue<EngineSnapshot> newest;
   std::unique_ptr<SpscQueue<EngineSnapshot, 256>> tick_queue =
@@ -160,6 +209,8 @@ struct Engine::Implementation {
   SafetyState last_safety = SafetyState::kNormal;
   bool had_pose = false;
   bool announced_give_up = false;
+  bool gust_blew = false;
+  std::array<AnnouncedCamera, kMaxCameras> announced{};
   bool ever_started = false;
 
   std::vector<std::jthread> threads;
@@ -200,11 +251,14 @@ void Engine::Implementation::tick(TimeNs now) {
   commands.take_off = take_off.exchange(false);
   commands.land = land.exchange(false);
   commands.kill = output.stopped();
+  takeCalibrations(now);
   output.submit(loop.onTick(now, commands), now);
 
   EngineSnapshot& snapshot = newest.back();
   snapshot = loop.snapshot();
   hardware.addTruth(snapshot, now);
+  addOrders(snapshot);
+  showCalibrations(snapshot.tick);
   if (!tick_queue->push(snapshot)) lost.fetch_add(1, std::memory_order_relaxed);
   announce(snapshot);
   newest.publish();
@@ -224,6 +278,9 @@ void Engine::Implementation::announce(const EngineSnapshot& now) {
     announced_give_up = true;
     raise(now.time, Severity::kDanger, "Output fell back to rotors off: the flight thread was silent");
   }
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) announceCamera(now, i);
+  if (now.gust_ordered && !gust_blew) raise(now.time, Severity::kInfo, "A gust");
+  gust_blew = now.gust_ordered;
   if (now.phase != last_phase) raise(now.time, Severity::kInfo, phaseText(now.phase));
   if (now.safety != last_safety) {
     const SafetyText text = safetyText(now.safety);
@@ -231,6 +288,69 @@ void Engine::Implementation::announce(const EngineSnapshot& now) {
   }
   last_phase = now.phase;
   last_safety = now.safety;
+}
+
+void Engine::Implementation::announceCamera(const EngineSnapshot& now, std::size_t camera) {
+  const CameraSnapshot& state = now.cameras[camera];
+  AnnouncedCamera& before = announced[camera];
+  const auto raise_if = [&](bool changed, Severity severity, const char* text) {
+    if (changed) raise(now.time, severity, camera, text);
+  };
+  raise_if(state.hidden && !before.hidden, Severity::kCaution, "hidden by the operator");
+  raise_if(!state.hidden && before.hidden, Severity::kInfo, "shown again");
+  raise_if(state.boards > before.boards, Severity::kCaution, "a white board is held before it");
+  raise_if(state.boards < before.boards, Severity::kInfo, "a white board is taken away");
+  const std::uint32_t knocked = knocks[camera].load(std::memory_order_relaxed);
+  raise_if(knocked != before.knocks, Severity::kCaution, "knocked by the operator");
+  const CameraStatus status = state.estimate.status;
+  if (status != before.status && now.tick > 1) {
+    raise_if(status == CameraStatus::kCalibrated, Severity::kGood, "calibrated, in the control set");
+    raise_if(status == CameraStatus::kRejected, Severity::kCaution, "disagrees, out of the control set");
+    raise_if(status == CameraStatus::kCalibrating && before.status == CameraStatus::kCalibrated,
+             Severity::kCaution, "out of the control set, calibrating");
+  }
+  before = {status, state.hidden, state.boards, knocked};
+}
+
+void Engine::Implementation::takeCalibrations(TimeNs now) {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    std::unique_ptr<CameraCalibration> calibration = new_calibrations[i].take();
+    if (!calibration) continue;
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "calibrates anew by %s", calibration->calibrator().name());
+    raise(now, Severity::kInfo, i, text.data());
+    loop.swapCalibration(cameraId(static_cast<int>(i)), calibration);
+    new_calibrations[i].giveBack(std::move(calibration));
+  }
+}
+
+void Engine::Implementation::showCalibrations(std::uint64_t tick) {
+  if (tick % kCalibrationViewTicks != 0) return;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraCalibration* calibration = loop.calibration(cameraId(static_cast<int>(i)));
+    if (calibration == nullptr) continue;
+    fillView(*calibration, calibration_views[i].back());
+    calibration_views[i].publish();
+  }
+}
+
+void Engine::Implementation::addOrders(EngineSnapshot& snapshot) const {
+  snapshot.gust_ordered = snapshot.time < gust_until.load(std::memory_order_relaxed);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    snapshot.cameras[i].boards = boards[i].load(std::memory_order_relaxed);
+    const CameraCalibration* calibration = loop.calibration(cameraId(static_cast<int>(i)));
+    if (calibration != nullptr)
+      snapshot.cameras[i].effective_sample_size = calibration->calibrator().effectiveSampleSize();
+  }
+}
+
+void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {
+  const CameraConfig& camera = rig.cameras[index];
+  if (!camera.pose_is_guess) return;
+  // Another seed each time: a restart should not repeat the luck of the last one.
+  const std::uint64_t seed = rig.simulation.seed + index + kMaxCameras * ++calibrations_made;
+  new_calibrations[index].offer(std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body,
+                                                                    *camera.camera_from_world, seed));
 }
 
 void Engine::Implementation::fly(const std::stop_token& stop) {
@@ -306,7 +426,53 @@ void Engine::hideCamera(CameraId camera, bool hidden) {
   implementation_->hidden[static_cast<std::size_t>(camera.index())] = hidden;
 }
 
+void Engine::knockCamera(CameraId camera, double angle, double distance) {
+  Implementation& i = *implementation_;
+  if (!i.hardware.world) return;
+  i.hardware.world->knock(camera, angle, distance);
+  ++i.knocks[static_cast<std::size_t>(camera.index())];
+}
+
+void Engine::gust(const Eigen::Vector3d& wind_in_world, double duration_s) {
+  Implementation& i = *implementation_;
+  if (!i.hardware.world) return;
+  i.hardware.world->gust(wind_in_world, duration_s);
+  i.gust_until = i.clock->now() + fromSeconds(duration_s);
+}
+
+void Engine::setBoards(CameraId camera, const WhiteBoards& boards) {
+  const auto index = static_cast<std::size_t>(camera.index());
+  WhiteBoardsChannel& channel = *implementation_->hardware.boards[index];
+  channel.back() = boards;
+  channel.publish();
+  implementation_->boards[index] = boards.count;
+}
+
+void Engine::setCalibrator(const std::string& method) {
+  Implementation& i = *implementation_;
+  const auto names = calibratorNames();
+  if (std::find(names.begin(), names.end(), method) == names.end())
+    throw Error(ErrorKind::kInput, "there is no calibrator " + method, {}, "take one of the list");
+  for (std::size_t c = 0; c < i.rig.cameras.size(); ++c) i.replaceCalibration(c, method);
+  i.calibrator = method;
+}
+
+std::vector<std::string> Engine::calibrators() {
+  const auto names = calibratorNames();
+  return {names.begin(), names.end()};
+}
+
+const std::string& Engine::calibrator() const {
+  return implementation_->calibrator;
+}
+
+void Engine::restartCalibration(CameraId camera) {
+  const auto index = static_cast<std::size_t>(camera.index());
+  implementation_->replaceCalibration(index, implementation_->calibrator);
+}
+
 bool Engine::poll() {
+  for (auto& calibration : implementation_->new_calibrations) calibration.collect();
   return implementation_->newest.take();
 }
 const EngineSnapshot& Engine::snapshot() const {
@@ -319,6 +485,14 @@ bool Engine::pollPicture(CameraId camera) {
 
 const CameraPicture& Engine::picture(CameraId camera) const {
   return implementation_->taps[static_cast<std::size_t>(camera.index())].pictures().front();
+}
+
+bool Engine::pollCalibration(CameraId camera) {
+  return implementation_->calibration_views[static_cast<std::size_t>(camera.index())].take();
+}
+
+const CalibrationView& Engine::calibration(CameraId camera) const {
+  return implementation_->calibration_views[static_cast<std::size_t>(camera.index())].front();
 }
 
 bool Engine::nextTick(EngineSnapshot& tick) {

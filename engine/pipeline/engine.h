@@ -1,10 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/config/rig_config.h"
 #include "engine/flight/flight_plan.h"
 #include "engine/pipeline/snapshot.h"
+#include "engine/pipeline/white_board.h"
 
 namespace helical {
 
@@ -32,6 +35,20 @@ class Engine {
   void land();     ///< lands where it is
   void kill();     ///< rotors off at once, latched; bypasses every queue
   void hideCamera(CameraId camera, bool hidden);
+  /// In simulation: somebody knocks the camera, the air moves. Nothing happens on a real rig.
+  void knockCamera(CameraId camera, double angle, double distance);    ///< rad, m
+  void gust(const Eigen::Vector3d& wind_in_world, double duration_s);  ///< m/s at its height
+
+  /// Orders of the reading thread; wait-free for the engine.
+  /// All boards before a camera from now on, for real cameras too: its frames show them.
+  void setBoards(CameraId camera, const WhiteBoards& boards);
+  /// Cameras that have only a first guess start anew from it with this method, and leave the control set
+  /// until they are admitted again. Throws Error(kInput) for an unknown one.
+  void setCalibrator(const std::string& method);
+  const std::string& calibrator() const;
+  static std::vector<std::string> calibrators();  ///< in the order users are shown
+  /// The same for one camera, with the method of the others.
+  void restartCalibration(CameraId camera);
 
   /// True if `snapshot()` is newer than at the last call.
   bool poll();
@@ -40,6 +57,10 @@ class Engine {
   /// Newest picture of a camera at display rate; false if there is none since the last call.
   bool pollPicture(CameraId camera);
   const CameraPicture& picture(CameraId camera) const;
+
+  /// What a camera's calibrator believes, at display rate; false if there is nothing new since the last call.
+  bool pollCalibration(CameraId camera);
+  const CalibrationView& calibration(CameraId camera) const;
 
   /// Every control tick's snapshot in order, for plots that must not miss one; false when there is none.
   bool nextTick(EngineSnapshot& tick);

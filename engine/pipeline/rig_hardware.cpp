@@ -1,6 +1,8 @@
 #include "engine/pipeline/rig_hardware.h"
 
 #include "engine/base/error.h"
+#include "engine/simulator/disturbed_source.h"
+#include "engine/simulator/random_streams.h"
 #include "engine/simulator/simulated_camera.h"
 #include "engine/simulator/simulated_observer.h"
 #include "engine/simulator/simulated_transmitter.h"
@@ -10,6 +12,12 @@ namespace helical {
 void RigHardware::addTruth(EngineSnapshot& snapshot, TimeNs now) const {
   if (!world) return;
   world->advanceTo(now);
+  for (std::size_t i = 0; i < disturbances.size(); ++i) {
+    CameraSnapshot& camera = snapshot.cameras[i];
+    camera.has_truth = true;
+    camera.true_camera_from_world =
+        world->knocked(cameraId(static_cast<int>(i)), disturbances[i].cameraFromWorld(toSeconds(now)));
+  }
   const auto truth = world->at(now);
   if (!truth) return;
   snapshot.has_truth = true;
@@ -37,16 +45,24 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
       throw Error(ErrorKind::kInput, "camera " + camera.label + " has no source to fly with", rig.path,
                   "give it source = \"sim\"");
     const CameraId id = cameraId(static_cast<int>(i));
+    const RigidTransform truth = trueCameraFromWorld(rig, id);
+    hardware.boards.push_back(std::make_shared<WhiteBoardsChannel>());
+    hardware.disturbances.emplace_back(id, rig.simulation, truth,
+                                       randomStream(rig.simulation.seed, RandomStream::kKnocks, id));
     if (rig.simulation.images) {
-      auto source = std::make_unique<SimulatedCamera>(
-          id, camera.model, trueCameraFromWorld(rig, id), rig.markers_in_body,
-          rig.marker_options.background_frames, rig.simulation, hardware.world, clock);
+      auto source = std::make_unique<SimulatedCamera>(id, camera.model, truth, rig.markers_in_body,
+                                                      rig.marker_options.background_frames, rig.simulation,
+                                                      hardware.world, clock);
+      auto boarded = std::make_unique<BoardedCamera>(std::move(source), hardware.boards.back());
+      auto extracted = std::make_unique<ExtractingSource>(std::move(boarded), rig.marker_options, tap);
       hardware.sources.push_back(
-          std::make_unique<ExtractingSource>(std::move(source), rig.marker_options, tap));
+          std::make_unique<DisturbedSource>(std::move(extracted), camera.model, rig.simulation));
     } else {
-      hardware.sources.push_back(std::make_unique<SimulatedObserver>(
-          id, camera.model, trueCameraFromWorld(rig, id), rig.markers_in_body, rig.marker_options,
-          rig.simulation, hardware.world, clock));
+      auto source =
+          std::make_unique<SimulatedObserver>(id, camera.model, truth, rig.markers_in_body,
+                                              rig.marker_options, rig.simulation, hardware.world, clock);
+      hardware.sources.push_back(
+          std::make_unique<BoardedObserver>(std::move(source), hardware.boards.back()));
     }
   }
   hardware.transmitter = std::make_unique<SimulatedTransmitter>(rig.simulation, hardware.world);

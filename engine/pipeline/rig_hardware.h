@@ -8,7 +8,9 @@
 #include "engine/base/clock.h"
 #include "engine/config/rig_config.h"
 #include "engine/markers/extracting_source.h"
+#include "engine/pipeline/boarded_sources.h"
 #include "engine/pipeline/snapshot.h"
+#include "engine/simulator/disturbances.h"
 #include "engine/simulator/world.h"
 #include "engine/transmitter/transmitter.h"
 
@@ -21,6 +23,8 @@ struct RigHardware {
   std::vector<std::unique_ptr<ObservationSource>> sources;
   std::unique_ptr<Transmitter> transmitter;
   std::shared_ptr<World> world;
+  std::vector<std::shared_ptr<WhiteBoardsChannel>> boards;  ///< one per camera
+  std::vector<CameraDisturbances> disturbances;             ///< of simulated cameras: where they truly are
 
   /// Adds the truth of a simulated rig to a snapshot taken at `now`; leaves that of a real one alone.
   void addTruth(EngineSnapshot& snapshot, TimeNs now) const;

@@ -18,7 +18,11 @@ namespace helical {
 struct CameraSnapshot {
   CameraEstimate estimate;
   const char* calibration_method = nullptr;  ///< by which the pose is learnt in flight; null if it was given
+  double effective_sample_size = 0.0;        ///< of its hypotheses; 0 for methods without
+  bool has_truth = false;                    ///< simulated cameras only
+  RigidTransform true_camera_from_world;     ///< at `EngineSnapshot::time`
   bool hidden = false;                       ///< by the operator: its observations are thrown away
+  int boards = 0;                            ///< before it, put there by the operator
   std::uint64_t frames = 0;                  ///< received
   std::uint64_t dropped = 0;                 ///< missing in the sequence
   double frames_per_second = 0.0;
@@ -50,12 +54,26 @@ struct EngineSnapshot {
   bool has_truth = false;         ///< simulated flights only
   HelicopterState truth;          ///< at `time`
   Verdict verdict;                ///< valid with `has_truth`
+  bool gust_ordered = false;      ///< the operator's gust blows
   TimeNs server_p50 = 0;          ///< observation in hand to command out, flight thread
   TimeNs server_p99 = 0;
   TimeNs frame_to_command_p50 = 0;  ///< arrival of a camera's newest frame to the tick that first used it
   TimeNs frame_to_command_p99 = 0;
   double ticks_per_second = 0.0;
   std::array<CameraSnapshot, kMaxCameras> cameras{};
+};
+
+/// What one camera's calibrator believes, thinned out for display.
+struct CalibrationView {
+  struct Particle {
+    Eigen::Vector3f centre_in_world = Eigen::Vector3f::Zero();  ///< of the camera [m]
+    float weight = 0.0F;                                        ///< over that of the heaviest one
+  };
+  static constexpr int kMaxParticles = 256;
+
+  int total = 0;  ///< hypotheses of the method; 0 for one without
+  int count = 0;  ///< of them here
+  std::array<Particle, kMaxParticles> particles{};
 };
 
 /// A frame for display, with what was found in it.

@@ -38,8 +38,8 @@ void SimulatedCamera::expose(TimeNs now) {
   if (const auto sample = world_->at(exposures_.exposure()))
     view =
         HelicopterView{sample->state.world_from_body, sample->upper_rotor_angle, sample->lower_rotor_angle};
-  image_ =
-      renderer_.render(disturbances_.cameraFromWorld(time_s), view, time_s, disturbances_.boardCover(time_s));
+  const RigidTransform camera_from_world = world_->knocked(camera_, disturbances_.cameraFromWorld(time_s));
+  image_ = renderer_.render(camera_from_world, view, time_s, disturbances_.boardCover(time_s));
   exposed_ = true;
 }
 

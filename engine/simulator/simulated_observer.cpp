@@ -65,7 +65,7 @@ void SimulatedObserver::driftOffsets(double dt) {
 void SimulatedObserver::observe(const WorldSample& sample, double time_s, Observation& observation) {
   driftOffsets(time_s - offsets_time_s_);
   offsets_time_s_ = time_s;
-  const RigidTransform camera_from_world = disturbances_.cameraFromWorld(time_s);
+  const RigidTransform camera_from_world = world_->knocked(camera_, disturbances_.cameraFromWorld(time_s));
   const double board_edge = disturbances_.boardCover(time_s) * model_.width();
 
   std::array<Disc, kMaxMarkers> discs;

@@ -5,6 +5,7 @@
 
 #include "engine/base/check.h"
 #include "engine/geometry/rotation.h"
+#include "engine/simulator/disturbances.h"
 #include "engine/simulator/random_streams.h"
 
 namespace helical {
@@ -60,7 +61,7 @@ void World::stepOnce() {
   ++step_;
   if (placed_at_step_ >= 0 && !verdict_.crashed) {
     blow(kStepS);
-    dynamics_.step(sticks_, gust_, kStepS);
+    dynamics_.step(sticks_, airNow(), kStepS);
     upper_angle_ = std::remainder(upper_angle_ + dynamics_.upperRotorSpeed() * kStepS, 2.0 * kPi);
     lower_angle_ = std::remainder(lower_angle_ - dynamics_.lowerRotorSpeed() * kStepS, 2.0 * kPi);
     judge();
@@ -80,6 +81,35 @@ void World::blow(double dt) {
   drift(gust_.moment_in_body.x(), f * kMomentLateral, kMomentTime);
   drift(gust_.moment_in_body.y(), f * kMomentLateral, kMomentTime);
   drift(gust_.moment_in_body.z(), f * kMomentYaw, kMomentTime);
+}
+
+Gust World::airNow() const {
+  Gust air = gust_;
+  const double phase =
+      (static_cast<double>(step_) * kStepS - ordered_since_s_) / std::max(ordered_duration_s_, kStepS);
+  if (phase < 1.0) air.wind_in_world += std::sin(kPi * phase) * ordered_wind_;
+  return air;
+}
+
+void World::gust(const Eigen::Vector3d& wind, double duration_s) {
+  const std::lock_guard lock(mutex_);
+  ordered_wind_ = wind;
+  ordered_since_s_ = static_cast<double>(step_) * kStepS;
+  ordered_duration_s_ = duration_s;
+}
+
+void World::knock(CameraId camera, double angle, double distance) {
+  const std::lock_guard lock(mutex_);
+  const Random random = randomStream(options_.seed, RandomStream::kKnocks, camera).fork(knocks_.size() + 1);
+  knocks_.push_back({camera, angle, distance, random});
+}
+
+RigidTransform World::knocked(CameraId camera, const RigidTransform& camera_from_world) const {
+  const std::lock_guard lock(mutex_);
+  RigidTransform pose = camera_from_world;
+  for (const Knock& knock : knocks_)
+    if (knock.camera == camera) pose = displaced(pose, knock.angle, knock.distance, knock.random);
+  return pose;
 }
 
 void World::judge() {

@@ -42,16 +42,31 @@ class World {
   /// Sticks that take effect at `when`.
   void command(const StickDemand& demand, TimeNs when);
 
+  /// A gust of `wind` [m/s, world] now, which swells and dies within `duration_s`; a new one takes the place
+  /// of the last.
+  void gust(const Eigen::Vector3d& wind, double duration_s);
+  /// Somebody knocks a camera now: it turns about a random axis and shifts in a random direction.
+  void knock(CameraId camera, double angle, double distance);
+  /// Where a camera is that would be at `camera_from_world` had nobody knocked it by `knock`.
+  RigidTransform knocked(CameraId camera, const RigidTransform& camera_from_world) const;
+
   Verdict verdict() const;
   const HelicopterParameters& parameters() const { return dynamics_.parameters(); }
 
  private:
+  struct Knock {
+    CameraId camera;
+    double angle;     ///< rad
+    double distance;  ///< m
+    Random random;
+  };
   struct Command {
     TimeNs when;
     StickDemand demand;
   };
   void stepOnce();
   void blow(double dt);
+  Gust airNow() const;
   void judge();
 
   mutable std::mutex mutex_;
@@ -59,6 +74,10 @@ class World {
   Random random_;
   Dynamics dynamics_;
   Gust gust_;
+  Eigen::Vector3d ordered_wind_ = Eigen::Vector3d::Zero();  ///< at the ordered gust's height
+  double ordered_since_s_ = 0.0;
+  double ordered_duration_s_ = 0.0;
+  std::vector<Knock> knocks_;
   std::deque<Command> commands_;
   StickDemand sticks_;
   std::int64_t step_ = 0;

@@ -70,6 +70,12 @@ double inkShare(const QImage& image, const QRectF& page) {
   return static_cast<double>(inked) / (area.width() * area.height());
 }
 
+TEST_F(PaintedFigures, AnApplicationThatIsThereServesAndStays) {
+  const QCoreApplication* const outer = QCoreApplication::instance();
+  { const OffscreenApplication inner; }
+  EXPECT_EQ(QCoreApplication::instance(), outer);
+}
+
 TEST_F(PaintedFigures, CurvesAreWhereTheDataSay) {
   FlightTrace a = landedFlight();
   FlightTrace b = landedFlight();

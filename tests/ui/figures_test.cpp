@@ -231,6 +231,14 @@ TEST(PaperFigures, SayWhatHappenedAndOnlyThat) {
   ASSERT_EQ(figures[0].panels[0].spans.size(), 1u) << "one for both flights";
   EXPECT_DOUBLE_EQ(figures[0].panels[0].spans[0].to_s, 25.0);
 
+  FlightTrace crashed_too = landedFlight();
+  crashed_too.crashed = true;
+  crashed_too.crashed_at_s = 20.0;
+  const Panel both = paperFigures(crashedFlight(), crashed_too)[0].panels[0];
+  ASSERT_EQ(both.notes.size(), 2u);
+  EXPECT_EQ(both.notes[0].text, "experiment B crashed") << "the latest on top";
+  EXPECT_EQ(both.notes[1].text, "experiment A crashed");
+
   const auto both_landed = paperFigures(landedFlight(), landedFlight());
   for (const Figure& figure : both_landed) {
     for (const Panel& panel : figure.panels) EXPECT_TRUE(panel.notes.empty());

@@ -58,7 +58,7 @@ struct Panel {
   std::vector<Curve> curves;
   Raster raster;
   std::vector<ShadedSpan> spans;
-  std::vector<TimeNote> notes;
+  std::vector<TimeNote> notes;  ///< the latest first, so that no arrow crosses the words of another
   std::vector<RowBrace> braces;
 };
 

@@ -112,7 +112,7 @@ void drawNotes(QPainter& painter, const Panel& panel, const PanelLayout& layout)
     painter.setPen(penFor({note.color, Qt::DotLine, kFrameWidth}));
     painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
 
-    const bool right = x + kKeyWordGap + textWidth(note.text) <= area.right();
+    const bool right = x - kKeyWordGap - textWidth(note.text) < kMargin;
     painter.setPen(kInk);
     drawText(painter, {right ? x + kKeyWordGap : x - kKeyWordGap, row + 0.5 * kRowHeight},
              Qt::AlignVCenter | (right ? Qt::AlignLeft : Qt::AlignRight), note.text);

@@ -90,6 +90,8 @@ Panel curvesPanel(const Flights& flights, const PlotAxis& values) {
   addSpan(panel, flights.b);
   addCrash(panel, flights.a, QString::fromStdString(flights.a.name), kExperimentA);
   addCrash(panel, flights.b, QString::fromStdString(flights.b.name), kExperimentB);
+  std::sort(panel.notes.begin(), panel.notes.end(),
+            [](const TimeNote& one, const TimeNote& other) { return one.at_s > other.at_s; });
   return panel;
 }
 

@@ -8,6 +8,7 @@ void addExperimentCommand(CLI::App& app, int& exit_code) {
   CLI::App* experiments = app.add_subcommand("experiment", "Studies over many seeds");
   experiments->require_subcommand(1);
   addCorrespondenceExperiment(*experiments, exit_code);
+  addMatsukawa2010Experiment(*experiments, exit_code);
 }
 
 }  // namespace helical

@@ -13,4 +13,7 @@ void addExperimentCommand(CLI::App& app, int& exit_code);
 /// Sets `exit_code` to 1 when theorem 1's bound was broken.
 void addCorrespondenceExperiment(CLI::App& experiments, int& exit_code);
 
+/// Adds `matsukawa2010` to the group: the paper's experiments over many seeds, its table and figures.
+void addMatsukawa2010Experiment(CLI::App& experiments, int& exit_code);
+
 }  // namespace helical

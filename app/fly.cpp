@@ -38,6 +38,7 @@ struct FlyArguments {
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
   std::vector<std::string> uncalibrated;
+  std::string tracker;
   std::string calibrator;
   std::vector<double> initial_error;  ///< degrees, metres
   double pixel_noise = -1.0;
@@ -67,6 +68,7 @@ RigConfig configuredRig(const FlyArguments& arguments) {
   if (arguments.gust >= 0.0) simulation.gust_factor = arguments.gust;
   if (arguments.vary >= 0.0) simulation.vary = arguments.vary;
   if (arguments.rate > 0.0) simulation.camera_rate_hz = arguments.rate;
+  if (!arguments.tracker.empty()) rig.tracker = arguments.tracker;
   for (const auto& text : arguments.occlude) simulation.occlusions.push_back(parseOcclusion(text, rig));
   for (const auto& text : arguments.bump) simulation.bumps.push_back(parseBump(text, rig));
   simulation.true_camera_from_world.resize(rig.cameras.size());
@@ -145,7 +147,7 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
                       "CAM@T:DEG,M: knock a camera at T [s] by degrees and metres");
   command->add_option("--pixel-noise", arguments->pixel_noise, "Centroid noise without images [px]")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--outliers", arguments->outliers, "Share of centroids thrown aside, without images")
+  command->add_option("--outliers", arguments->outliers, "Share of centroids thrown aside")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--gust", arguments->gust, "Scales the gusts; 0 is still air")
       ->check(CLI::NonNegativeNumber);
@@ -153,6 +155,8 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.0, 0.9));
   command->add_option("--uncalibrated", arguments->uncalibrated, "CAM,...: cameras whose pose is not known")
       ->delimiter(',');
+  command->add_option("--tracker", arguments->tracker,
+                      "helical (default), or paper: latest images, plain least squares");
   command->add_option("--calibrator", arguments->calibrator,
                       "Calibrates cameras without a pose in flight: " + knownCalibrators());
   command

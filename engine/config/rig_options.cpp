@@ -123,6 +123,7 @@ constexpr OptionField<ObservationNoise> kNoiseFields[] = {
     {"sigma_px", &ObservationNoise::sigma_px},           {"bias_px", &ObservationNoise::bias_px},
     {"bias_time_s", &ObservationNoise::bias_time_s},     {"dropout", &ObservationNoise::dropout},
     {"false_markers", &ObservationNoise::false_markers}, {"outliers", &ObservationNoise::outliers},
+    {"lost_markers", &ObservationNoise::lost_markers},
 };
 
 template <class Options, std::size_t N>

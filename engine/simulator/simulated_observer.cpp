@@ -9,7 +9,6 @@
 namespace helical {
 namespace {
 
-constexpr double kOutlierReach = 80.0;   // px
 constexpr double kFalseRadius = 4.0;     // px
 constexpr double kSmallestRadius = 1.5;  // px: below, opening removes it
 
@@ -76,10 +75,10 @@ void SimulatedObserver::observe(const WorldSample& sample, double time_s, Observ
     const auto pixel = model_.project(in_camera);
     // The draws come first: a ball that leaves the image must not change the luck of the others.
     const Eigen::Vector2d white = noise_.sigma_px * Eigen::Vector2d(random_.normal(), random_.normal());
-    const bool dropped = random_.uniform() < noise_.dropout;
+    const bool dropped = random_.uniform() < noise_.dropout + noise_.lost_markers;
     const bool thrown = random_.uniform() < noise_.outliers;
     const Eigen::Vector2d aside =
-        kOutlierReach * Eigen::Vector2d(random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0));
+        kOutlierReachPx * Eigen::Vector2d(random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0));
     if (!pixel || dropped) continue;
     const double radius = model_.fx() * markers_.radius() / in_camera.z();
     Eigen::Vector2d seen = *pixel + white + offsets_[static_cast<std::size_t>(m)];

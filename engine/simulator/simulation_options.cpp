@@ -29,6 +29,7 @@ void validate(const SimulationOptions& o) {
   requireRange(o.noise.bias_px, 0.0, 20.0, "noise.bias_px");
   requireRange(o.noise.bias_time_s, 0.001, 1000.0, "noise.bias_time_s");
   requireRange(o.noise.dropout, 0.0, 1.0, "noise.dropout");
+  requireRange(o.noise.lost_markers, 0.0, 1.0, "noise.lost_markers");
   requireRange(o.noise.false_markers, 0.0, 1.0, "noise.false_markers");
   requireRange(o.noise.outliers, 0.0, 1.0, "noise.outliers");
   for (const auto& occlusion : o.occlusions)

@@ -32,8 +32,11 @@ struct ObservationNoise {
   double bias_time_s = 1.0;       ///< correlation time of that offset
   double dropout = 0.0005;        ///< a visible ball is not found
   double false_markers = 0.0001;  ///< per frame: a region somewhere in the image
-  double outliers = 0.0;          ///< share of centroids thrown up to 80 px aside
+  // What is done to an observation on top, with images and without.
+  double lost_markers = 0.0;  ///< share of balls that are not found
+  double outliers = 0.0;      ///< share of centroids thrown up to kOutlierReachPx aside
 };
+inline constexpr double kOutlierReachPx = 80.0;  ///< per axis, either way
 
 struct SimulationOptions {
   std::uint64_t seed = 1;

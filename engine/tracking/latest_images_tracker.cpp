@@ -119,7 +119,8 @@ void LatestImagesTracker::solve(TimeNs time, std::span<const CameraEstimate> cam
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
     const View& view = views_[c];
     if (!usable[c] || !view.seen || time - view.newest.exposure > kLatestImage) continue;
-    solved_views_[count++] = {&cameras_[c], cameras[c].camera_from_world, &view.newest, view.names};
+    synchronise(c, cameras[c], time, moved_[c]);
+    solved_views_[count++] = {&cameras_[c], cameras[c].camera_from_world, &moved_[c], view.names};
     for (const int name : view.names) {
       if (name < 0) continue;
       variance += view.newest.centroids[static_cast<std::size_t>(name)].covariance.trace() / 2.0;
@@ -133,6 +134,22 @@ void LatestImagesTracker::solve(TimeNs time, std::span<const CameraEstimate> cam
   if ((fit.world_from_body.translation - state_.world_from_body.translation).norm() > kLongestJump) return;
   fit.information /= variance / named + fit.rms_px * fit.rms_px;
   moveTo(fit, time);
+}
+
+void LatestImagesTracker::synchronise(std::size_t camera, const CameraEstimate& estimate, TimeNs time,
+                                      Observation& moved) const {
+  const View& view = views_[camera];
+  moved = view.newest;
+  const RigidTransform then = predict(view.newest.exposure, true).state.world_from_body;
+  const RigidTransform now = predict(time, true).state.world_from_body;
+  for (int m = 0; m < markers_.count(); ++m) {
+    const int name = view.names[static_cast<std::size_t>(m)];
+    if (name < 0) continue;
+    const Eigen::Vector3d& marker = markers_.inBody(markerId(m));
+    const auto from = cameras_[camera].project(estimate.camera_from_world * (then * marker));
+    const auto to = cameras_[camera].project(estimate.camera_from_world * (now * marker));
+    if (from && to) moved.centroids[static_cast<std::size_t>(name)].pixel += *to - *from;
+  }
 }
 
 void LatestImagesTracker::moveTo(const PoseFit& fit, TimeNs time) {

@@ -12,7 +12,8 @@ namespace helical {
 /// The tracker of the paper's system (section IV; Iwatani, Watanabe and Hashimoto 2008), kept to compare
 /// with: features are selected in each image by where they were before, without regard to the cameras' poses;
 /// the helicopter's pose is plain Gauss-Newton least squares (eq. 3) over the latest image of every usable
-/// camera, taken as simultaneous; velocities are its differences, low-passed. It has neither gates in 3D nor
+/// camera; velocities are its differences, low-passed. Where the paper's cameras were synchronised ours run
+/// freely: each image is moved to the newest one's time by those velocities. It has neither gates in 3D nor
 /// robust weights: a wrong camera pulls the pose along.
 class LatestImagesTracker final : public Tracker {
  public:
@@ -42,6 +43,7 @@ class LatestImagesTracker final : public Tracker {
   void select(std::size_t camera, const CameraEstimate& estimate);
   Names namesFromPose(std::size_t camera, const CameraEstimate& estimate) const;
   void solve(TimeNs time, std::span<const CameraEstimate> cameras, std::span<const bool> usable);
+  void synchronise(std::size_t camera, const CameraEstimate& estimate, TimeNs time, Observation& moved) const;
   void moveTo(const PoseFit& fit, TimeNs time);
   void report(std::size_t camera, const CameraEstimate& estimate);
 
@@ -51,6 +53,7 @@ class LatestImagesTracker final : public Tracker {
   Acquisition acquisition_;
   std::vector<View> views_;
   std::array<NamedView, kMaxCameras> solved_views_;  ///< scratch
+  std::array<Observation, kMaxCameras> moved_;       ///< scratch: images at one time
 
   bool acquired_ = false;
   TimeNs pose_time_ = 0;

@@ -6,8 +6,12 @@
 
 #include "engine/base/random.h"
 #include "engine/calibration/extrinsic_calibrator.h"
+#include "engine/calibration/normal_deviates.h"
 
 namespace helical {
+
+/// Particles that a loop takes at a time, so that what it needs stays in the nearest cache.
+inline constexpr std::size_t kParticleBlock = 256;
 
 /// Weighted mean and covariance of perturbations (order of CameraEstimate).
 struct CloudMoments {
@@ -15,52 +19,67 @@ struct CloudMoments {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
-/// Weighted camera poses, as perturbations of a reference that follows their mean. Allocates at construction
-/// only. One thread.
+/// Weighted camera poses, as perturbations of a reference that follows their mean. Their rotations are kept
+/// as modified Rodrigues parameters, four times the tangent of a quarter of the angle: rotation vectors to
+/// third order, and no sine in the loops over particles, which run on arrays in single precision. Allocates
+/// at construction only. One thread.
 class ParticleCloud {
  public:
-  explicit ParticleCloud(int count);
+  ParticleCloud(int count, std::uint64_t random_seed);
 
   int count() const { return static_cast<int>(log_weights_.size()); }
 
+  /// As after construction.
+  void restart(std::uint64_t random_seed);
+
   /// Draws all particles from a normal distribution; equal weights.
-  void seed(const RigidTransform& mean, const Matrix6d& covariance, Random& random);
+  void seed(const RigidTransform& mean, const Matrix6d& covariance);
 
   /// Adds `exponent` times the log-likelihoods to the log-weights.
-  void reweigh(std::span<const double> log_likelihoods, double exponent);
+  void reweigh(std::span<const float> log_likelihoods, double exponent);
   /// The effective sample size that `reweigh` would leave.
-  double effectiveSampleSizeAfter(std::span<const double> log_likelihoods, double exponent);
+  double effectiveSampleSizeAfter(std::span<const float> log_likelihoods, double exponent);
   double effectiveSampleSize() const { return effective_; }
 
   /// Systematic resampling, then the kernel of Liu and West (2001): particles shrink towards their mean by
   /// sqrt(1 - kernel^2) and get noise of `kernel` times their covariance, which keeps both moments.
   /// `kernel` = 0 leaves copies where they are.
-  void resample(double kernel, Random& random);
+  void resample(double kernel);
 
-  /// About `mean()`: the camera_from_world that the reference, perturbed by the mean, is.
+  /// About `pose(moments().mean)`.
   CloudMoments moments() const;
-  RigidTransform mean() const;
+  /// The reference, perturbed: camera_from_world.
+  RigidTransform pose(const Vector6d& perturbation) const;
 
-  std::span<const WeightedPose> poses() const { return poses_; }
+  /// All particles, by index; written anew by every call.
+  std::span<const WeightedPose> poses();
 
   /// Element `row` of the rotation matrix (row by row) and then of the translation of camera_from_world, of
-  /// all particles one after another.
-  std::span<const double> column(int row) const { return columns_[static_cast<std::size_t>(row)]; }
+  /// all particles one after another, filled up with zeros to whole blocks.
+  std::span<const float> column(int row) const { return columns_[static_cast<std::size_t>(row)]; }
 
  private:
+  using Column = std::vector<float>;
+
+  /// changes = offset + scale * changes + root * noise.
+  void disperse(const Vector6d& offset, double scale, const Matrix6d& root);
+  void startEqual();
   void moveReference(const Vector6d& mean);
-  void updatePoses();
+  void updateColumns();
 
   RigidTransform reference_;
-  std::vector<Vector6d> changes_;
-  std::vector<Vector6d> parents_changes_;
-  std::vector<double> log_weights_;
-  std::vector<double> trial_log_weights_;
-  std::vector<double> weights_;
-  std::vector<double> trial_weights_;
+  Random random_;
+  NormalDeviates deviates_;
+  std::array<Column, 6> changes_;
+  std::array<Column, 6> spare_;  ///< parents' changes, or noise
+  std::array<Column, 12> columns_;
+  Column log_weights_;
+  Column trial_log_weights_;
+  Column weights_;
+  Column trial_weights_;
   std::vector<int> parents_;
   std::vector<WeightedPose> poses_;
-  std::array<std::vector<double>, 12> columns_;
+  float trial_largest_ = 0.0F;
   double effective_ = 0.0;
 };
 

@@ -57,21 +57,20 @@ ParticleFilter::ParticleFilter(ParticleFilterKind kind, const ParticleFilterOpti
       camera_(camera),
       markers_(markers),
       seed_(seed),
-      random_(seed),
-      cloud_(options.particles),
+      cloud_(options.particles, seed),
       store_(static_cast<int>(kModeFrames)),
       log_likelihoods_(static_cast<std::size_t>(options.particles)) {
   restart({});
 }
 
 void ParticleFilter::restart(const RigidTransform& initial_guess) {
-  random_ = Random(seed_);
+  cloud_.restart(seed_);
   store_.clear();
   schedule_ = {};
   guess_ = initial_guess;
   estimate_ = {initial_guess, covarianceOf(spread_), CameraStatus::kCalibrating};
   started_ = kind_ == ParticleFilterKind::kLiteral;
-  if (started_) cloud_.seed(guess_, estimate_.covariance, random_);
+  if (started_) cloud_.seed(guess_, estimate_.covariance);
 }
 
 std::span<const WeightedPose> ParticleFilter::particles() const {
@@ -97,7 +96,7 @@ void ParticleFilter::considerModes() {
 
 void ParticleFilter::seedAround(const MarginalResection& resection) {
   const double inflation = options_.start_inflation * options_.start_inflation;
-  cloud_.seed(resection.camera_from_world, inflation * resection.information.inverse(), random_);
+  cloud_.seed(resection.camera_from_world, inflation * resection.information.inverse());
   started_ = true;
 }
 
@@ -153,10 +152,11 @@ void ParticleFilter::filter(const CalibrationFrame& frame) {
     cloud_.reweigh(log_likelihoods_, exponent);
     remaining -= exponent;
     if (cloud_.effectiveSampleSize() < options_.resample_share * options_.particles)
-      cloud_.resample(literal ? 0.0 : options_.kernel, random_);
+      cloud_.resample(literal ? 0.0 : options_.kernel);
   }
-  estimate_.camera_from_world = cloud_.mean();
-  estimate_.covariance = cloud_.moments().covariance;
+  const CloudMoments moments = cloud_.moments();
+  estimate_.camera_from_world = cloud_.pose(moments.mean);
+  estimate_.covariance = moments.covariance;
 }
 
 }  // namespace helical

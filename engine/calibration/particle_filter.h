@@ -3,7 +3,6 @@
 #include <array>
 #include <vector>
 
-#include "engine/base/random.h"
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/particle_cloud.h"
 #include "engine/calibration/particle_likelihood.h"
@@ -66,11 +65,10 @@ class ParticleFilter final : public ExtrinsicCalibrator {
   CameraModel camera_;
   MarkerLayout markers_;
   std::uint64_t seed_;
-  Random random_;
-  ParticleCloud cloud_;
+  mutable ParticleCloud cloud_;  ///< writes its poses out on demand
   FrameStore store_;
   ModeSchedule schedule_;
-  std::vector<double> log_likelihoods_;
+  std::vector<float> log_likelihoods_;
   std::array<BearingTarget, kMaxMarkers> targets_;
   bool started_ = false;
   RigidTransform guess_;

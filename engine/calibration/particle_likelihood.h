@@ -16,11 +16,12 @@ struct BearingTarget {
   double peak = 0.0;          ///< of the Gaussian: 1 / (sqrt(2 pi) sigma), sigma in pixels
 };
 
-/// Equation 11 for every particle, as a logarithm. `kPerMarker`: a Gaussian plus the floor for each ball,
-/// multiplied: one false centroid then costs every particle the same. `kPerCamera`: as printed, one Gaussian
-/// plus the floor over the vector of all pixels.
+/// Equation 11 for every particle, as a logarithm, but for a constant that all of them share. `kPerMarker`: a
+/// Gaussian plus the floor for each ball, multiplied: one false centroid then costs every particle the same.
+/// `kPerCamera`: as printed, one Gaussian plus the floor over the vector of all pixels. In single precision:
+/// 1e-4 pixels.
 enum class LikelihoodProduct { kPerMarker, kPerCamera };
 void logLikelihoods(const ParticleCloud& cloud, std::span<const BearingTarget> targets, double floor,
-                    LikelihoodProduct product, std::span<double> result);
+                    LikelihoodProduct product, std::span<float> result);
 
 }  // namespace helical

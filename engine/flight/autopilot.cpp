@@ -94,6 +94,7 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
     output.set_point.yaw = yawOf(input.state.world_from_body.rotation);
   }
   output.pad_height = pad_height_;
+  if (phase_ == FlightPhase::kIdle) output.obstacle = startObstacle(input);
   output.refusal = refusal_;
   output.airborne = inTheAir(phase_);
   output.hovering = phase_ == FlightPhase::kFlying && follower_.atFirstWaypoint();

@@ -32,7 +32,8 @@ struct AutopilotOutput {
   double pad_height = 0.0;  ///< of the body's origin standing on the pad, as seen before the start [m]
   bool hovering = false;    ///< has reached the first waypoint and is not landing
   bool airborne = false;
-  const char* refusal = nullptr;  ///< at the tick when a take-off order is given up: why; a literal
+  const char* obstacle = nullptr;  ///< on the ground: why it could not start now; a literal
+  const char* refusal = nullptr;   ///< at the tick when a take-off order is given up: why; a literal
 };
 
 /// The flight procedure: rotors up, lift-off, plan, landing, rotors off; the supervisor stands before the

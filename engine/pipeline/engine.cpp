@@ -300,8 +300,7 @@ void Engine::Implementation::announceCamera(const EngineSnapshot& now, std::size
   raise_if(!state.hidden && before.hidden, Severity::kInfo, "shown again");
   raise_if(state.boards > before.boards, Severity::kCaution, "a white board is held before it");
   raise_if(state.boards < before.boards, Severity::kInfo, "a white board is taken away");
-  const std::uint32_t knocked = knocks[camera].load(std::memory_order_relaxed);
-  raise_if(knocked != before.knocks, Severity::kCaution, "knocked by the operator");
+  raise_if(state.knocks != before.knocks, Severity::kCaution, "knocked by the operator");
   const CameraStatus status = state.estimate.status;
   if (status != before.status && now.tick > 1) {
     raise_if(status == CameraStatus::kCalibrated, Severity::kGood, "calibrated, in the control set");
@@ -309,7 +308,7 @@ void Engine::Implementation::announceCamera(const EngineSnapshot& now, std::size
     raise_if(status == CameraStatus::kCalibrating && before.status == CameraStatus::kCalibrated,
              Severity::kCaution, "out of the control set, calibrating");
   }
-  before = {status, state.hidden, state.boards, knocked};
+  before = {status, state.hidden, state.boards, state.knocks};
 }
 
 void Engine::Implementation::takeCalibrations(TimeNs now) {
@@ -338,6 +337,7 @@ void Engine::Implementation::addOrders(EngineSnapshot& snapshot) const {
   snapshot.gust_ordered = snapshot.time < gust_until.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     snapshot.cameras[i].boards = boards[i].load(std::memory_order_relaxed);
+    snapshot.cameras[i].knocks = knocks[i].load(std::memory_order_relaxed);
     const CameraCalibration* calibration = loop.calibration(cameraId(static_cast<int>(i)));
     if (calibration != nullptr)
       snapshot.cameras[i].effective_sample_size = calibration->calibrator().effectiveSampleSize();

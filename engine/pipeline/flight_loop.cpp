@@ -148,6 +148,7 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.hovering = output.hovering;
   snapshot_.pad_height = output.pad_height;
   snapshot_.sticks = output.sticks;
+  snapshot_.obstacle = output.obstacle;
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {

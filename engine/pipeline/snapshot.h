@@ -23,6 +23,7 @@ struct CameraSnapshot {
   RigidTransform true_camera_from_world;     ///< at `EngineSnapshot::time`
   bool hidden = false;                       ///< by the operator: its observations are thrown away
   int boards = 0;                            ///< before it, put there by the operator
+  std::uint32_t knocks = 0;                  ///< by the operator, so far
   std::uint64_t frames = 0;                  ///< received
   std::uint64_t dropped = 0;                 ///< missing in the sequence
   double frames_per_second = 0.0;
@@ -50,12 +51,13 @@ struct EngineSnapshot {
   double flight_time_s = 0.0;  ///< since the rotors started
   double pad_height = 0.0;     ///< of the body's origin standing on the pad [m]
   StickDemand sticks;
-  const char* refusal = nullptr;  ///< at the tick when a take-off order is given up: why; a literal
-  bool has_truth = false;         ///< simulated flights only
-  HelicopterState truth;          ///< at `time`
-  Verdict verdict;                ///< valid with `has_truth`
-  bool gust_ordered = false;      ///< the operator's gust blows
-  TimeNs server_p50 = 0;          ///< observation in hand to command out, flight thread
+  const char* obstacle = nullptr;  ///< on the ground: why it could not take off now; a literal
+  const char* refusal = nullptr;   ///< at the tick when a take-off order is given up: why; a literal
+  bool has_truth = false;          ///< simulated flights only
+  HelicopterState truth;           ///< at `time`
+  Verdict verdict;                 ///< valid with `has_truth`
+  bool gust_ordered = false;       ///< the operator's gust blows
+  TimeNs server_p50 = 0;           ///< observation in hand to command out, flight thread
   TimeNs server_p99 = 0;
   TimeNs frame_to_command_p50 = 0;  ///< arrival of a camera's newest frame to the tick that first used it
   TimeNs frame_to_command_p99 = 0;

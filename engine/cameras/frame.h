@@ -7,7 +7,8 @@
 
 namespace helical {
 
-enum class PixelFormat : std::uint8_t { kMono8, kBgr8 };
+/// Bayer formats are named as GigE Vision names them: by the two first pixels of the first row.
+enum class PixelFormat : std::uint8_t { kMono8, kBgr8, kRgb8, kBayerRg8, kBayerGr8, kBayerGb8, kBayerBg8 };
 
 /// Pixels that somebody else owns. Row y starts at `data + y * stride`.
 struct ImageView {

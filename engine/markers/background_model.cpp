@@ -5,7 +5,7 @@
 namespace helical {
 
 int rowBytes(const ImageView& image) {
-  return image.width * (image.format == PixelFormat::kBgr8 ? 3 : 1);
+  return image.width * (image.format == PixelFormat::kBgr8 || image.format == PixelFormat::kRgb8 ? 3 : 1);
 }
 
 void BackgroundModel::take() {

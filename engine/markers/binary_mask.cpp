@@ -3,6 +3,38 @@
 #include <algorithm>
 
 namespace helical {
+namespace {
+
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
+/// Bits of the cells `s` to the left and to the right of those of word `w`.
+std::uint64_t fromLeft(const std::uint64_t* words, int w, int s) {
+  return words[w] << s | words[w - 1] >> (64 - s);
+}
+std::uint64_t fromRight(const std::uint64_t* words, int w, int s) {
+  return words[w] >> s | words[w + 1] << (64 - s);
+}
+
+}  // namespace
+
+void WordRect::include(const WordRect& other) {
+  if (isEmpty()) {
+    *this = other;
+    return;
+  }
+  top = std::min(top, other.top);
+  bottom = std::max(bottom, other.bottom);
+  left = std::min(left, other.left);
+  right = std::max(right, other.right);
+}
+
+WordRect WordRect::grown(int rows, int words) const {
+  return {top - rows, bottom + rows, left - words, right + words};
+}
+
+bool WordRect::overlaps(const WordRect& other) const {
+  return top <= other.bottom && other.top <= bottom && left <= other.right && other.left <= right;
+}
 
 void BinaryMask::resize(int width, int height) {
   width_ = width;
@@ -10,64 +42,65 @@ void BinaryMask::resize(int width, int height) {
   words_ = (width + 63) / 64;
   bits_.assign(static_cast<std::size_t>(words_) * static_cast<std::size_t>(height), 0);
   line_.assign(static_cast<std::size_t>(words_) + 2, 0);
-  setBand(0, -1);
 }
 
-void BinaryMask::setBand(int first, int last) {
-  first_row_ = std::max(0, first);
-  last_row_ = std::min(height_ - 1, last);
+WordRect BinaryMask::clip(const WordRect& rect) const {
+  return {std::max(0, rect.top), std::min(height_ - 1, rect.bottom), std::max(0, rect.left),
+          std::min(words_ - 1, rect.right)};
+}
+
+void BinaryMask::clear(const WordRect& rect) {
+  for (int y = rect.top; y <= rect.bottom; ++y)
+    std::fill(row(y) + rect.left, row(y) + rect.right + 1, std::uint64_t{0});
 }
 
 std::uint64_t BinaryMask::lastWordMask() const {
   const int used = width_ % 64;
-  return used == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
+  return used == 0 ? kAll : (std::uint64_t{1} << used) - 1;
 }
 
-void BinaryMask::erode(const BinaryMask& source, int reach) {
-  setBand(source.firstRow(), source.lastRow());
-  const auto words = static_cast<std::size_t>(words_);
+void BinaryMask::erode(const BinaryMask& source, int reach, const WordRect& rect) {
   std::uint64_t* line = line_.data() + 1;
-  for (int y = first_row_; y <= last_row_; ++y) {
+  const int left = rect.left, right = rect.right;
+  const bool at_right = right == words_ - 1;
+  for (int y = rect.top; y <= rect.bottom; ++y) {
     std::uint64_t* out = row(y);
     const int above = std::max(0, y - reach), below = std::min(height_ - 1, y + reach);
-    if (above < source.firstRow() || below > source.lastRow()) {
-      std::fill_n(out, words, 0);
+    if (above < rect.top || below > rect.bottom) {
+      std::fill(out + left, out + right + 1, std::uint64_t{0});
       continue;
     }
-    std::copy_n(source.row(above), words, line);
+    std::copy(source.row(above) + left, source.row(above) + right + 1, line + left);
     for (int i = above + 1; i <= below; ++i)
-      for (std::size_t w = 0; w < words; ++w) line[w] &= source.row(i)[w];
-    line[-1] = line[words] = ~std::uint64_t{0};
-    line[words - 1] |= ~lastWordMask();
-    for (std::size_t w = 0; w < words; ++w) {
+      for (int w = left; w <= right; ++w) line[w] &= source.row(i)[w];
+    line[left - 1] = left == 0 ? kAll : 0;
+    line[right + 1] = at_right ? kAll : 0;
+    if (at_right) line[right] |= ~lastWordMask();
+    for (int w = left; w <= right; ++w) {
       std::uint64_t kept = line[w];
-      for (int s = 1; kept != 0 && s <= reach; ++s)
-        kept &= (line[w] << s | line[w - 1] >> (64 - s)) & (line[w] >> s | line[w + 1] << (64 - s));
+      for (int s = 1; s <= reach; ++s) kept &= fromLeft(line, w, s) & fromRight(line, w, s);
       out[w] = kept;
     }
-    out[words - 1] &= lastWordMask();
+    if (at_right) out[right] &= lastWordMask();
   }
 }
 
-void BinaryMask::dilate(const BinaryMask& source, int reach) {
-  setBand(source.firstRow() - reach, source.lastRow() + reach);
-  const auto words = static_cast<std::size_t>(words_);
+void BinaryMask::dilate(const BinaryMask& source, int reach, const WordRect& rect) {
   std::uint64_t* line = line_.data() + 1;
-  line[-1] = line[words] = 0;
-  for (int y = first_row_; y <= last_row_; ++y) {
-    std::fill_n(line, words, 0);
-    const int above = std::max(source.firstRow(), y - reach), below = std::min(source.lastRow(), y + reach);
-    for (int i = above; i <= below; ++i)
-      for (std::size_t w = 0; w < words; ++w) line[w] |= source.row(i)[w];
+  const int left = rect.left, right = rect.right;
+  for (int y = rect.top; y <= rect.bottom; ++y) {
+    const int above = std::max(rect.top, y - reach), below = std::min(rect.bottom, y + reach);
+    std::copy(source.row(above) + left, source.row(above) + right + 1, line + left);
+    for (int i = above + 1; i <= below; ++i)
+      for (int w = left; w <= right; ++w) line[w] |= source.row(i)[w];
+    line[left - 1] = line[right + 1] = 0;
     std::uint64_t* out = row(y);
-    for (std::size_t w = 0; w < words; ++w) {
+    for (int w = left; w <= right; ++w) {
       std::uint64_t grown = line[w];
-      if ((line[w] | line[w - 1] | line[w + 1]) != 0)
-        for (int s = 1; s <= reach; ++s)
-          grown |= line[w] << s | line[w - 1] >> (64 - s) | line[w] >> s | line[w + 1] << (64 - s);
+      for (int s = 1; s <= reach; ++s) grown |= fromLeft(line, w, s) | fromRight(line, w, s);
       out[w] = grown;
     }
-    out[words - 1] &= lastWordMask();
+    if (right == words_ - 1) out[right] &= lastWordMask();
   }
 }
 

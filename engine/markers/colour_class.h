@@ -4,40 +4,38 @@
 #include <memory>
 #include <vector>
 
+#include "engine/markers/colour_bounds.h"
 #include "engine/markers/marker_options.h"
 
 namespace helical {
 
 /// Which of the 2^24 colours are a marker's, as a bit table built with OpenCV's own conversion, hence exact;
-/// and a cheap necessary condition derived from the table: 16 pixels at a time are thrown out without looking
-/// them up. Immutable; extractors with the same range share one (2 MB). Any thread.
+/// and bounds derived from the table that throw out or accept most pixels without looking them up. Immutable;
+/// extractors with the same range share one (2 MB). Any thread.
 class ColourClass {
  public:
-  static std::shared_ptr<const ColourClass> of(const MarkerOptions& options);
+  enum class Order : std::uint8_t { kBgr, kRgb };  ///< of the bytes in memory
 
-  explicit ColourClass(const MarkerOptions& options);
+  static std::shared_ptr<const ColourClass> of(const ColourRange& options, Order order);
 
-  /// `bgr` points to one pixel.
-  bool contains(const std::uint8_t* bgr) const {
-    const std::uint32_t colour =
-        bgr[0] | static_cast<std::uint32_t>(bgr[1]) << 8 | static_cast<std::uint32_t>(bgr[2]) << 16;
-    return (table_[colour >> 6] >> (colour & 63U) & 1U) != 0;
+  ColourClass(const ColourRange& options, Order order);
+
+  /// `colour` points to three bytes in this class's order.
+  bool contains(const std::uint8_t* colour) const {
+    return contains(colour[0] | static_cast<std::uint32_t>(colour[1]) << 8 |
+                    static_cast<std::uint32_t>(colour[2]) << 16);
   }
+  bool contains(std::uint32_t index) const { return (table_[index >> 6] >> (index & 63U) & 1U) != 0; }
 
-  /// False only if none of the 64 pixels from `bgr` on is of the class.
-  bool mayContain64(const std::uint8_t* bgr) const;
+  /// 2^18 words, one bit a colour; bit number = first byte + 256 second + 65536 third.
+  const std::vector<std::uint64_t>& table() const { return table_; }
+  Order order() const { return order_; }
+  const ColourBounds& bounds() const { return bounds_; }
 
  private:
-  void deriveBounds();
-
+  Order order_;
   std::vector<std::uint64_t> table_;
-  // Necessary: max(others) <= dominant - lead and min(others) <= dominant - chroma, saturating at 0.
-  int dominant_ = 1;
-  int other_a_ = 0;
-  int other_b_ = 2;
-  std::uint8_t lead_ = 0;
-  std::uint8_t chroma_ = 0;
-  bool has_dominant_ = false;
+  ColourBounds bounds_;
 };
 
 }  // namespace helical

@@ -10,6 +10,6 @@ namespace helical {
 
 /// 255 where a BGR image has a marker's colour. The definition of the colour class: everything else is
 /// derived from it. For the .cpp files of this folder only.
-void markerColourMask(const cv::Mat& bgr, const MarkerOptions& options, cv::Mat& mask);
+void markerColourMask(const cv::Mat& bgr, const ColourRange& options, cv::Mat& mask);
 
 }  // namespace helical

@@ -1,110 +1,74 @@
 #include "engine/markers/extractor.h"
 
-#include <algorithm>
-#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "engine/base/clock.h"
 #include "engine/markers/background_model.h"
-#include "engine/markers/binary_mask.h"
-#include "engine/markers/colour_class.h"
-#include "engine/markers/region_labeller.h"
+#include "engine/markers/region_finder.h"
+#include "engine/markers/region_selection.h"
 
 namespace helical {
-namespace {
-
-bool differs(const std::uint8_t* a, const std::uint8_t* b, int channels, int threshold) {
-  for (int i = 0; i < channels; ++i)
-    if (std::abs(a[i] - b[i]) > threshold) return true;
-  return false;
-}
-
-}  // namespace
 
 struct Extractor::Workspace {
   explicit Workspace(const MarkerOptions& marker_options)
       : options(marker_options),
-        colour(ColourClass::of(marker_options)),
-        background(marker_options.background_frames) {}
+        background(marker_options.background_frames),
+        finder(marker_options.opening_px, marker_options.closing_px),
+        selection(options) {
+    colours.push_back(options);
+    colours.insert(colours.end(), options.other_colours.begin(), options.other_colours.end());
+  }
 
   void resize(const ImageView& image);
-  void classify(const ImageView& image);
-  std::uint64_t classifyColour(const std::uint8_t* pixels, const std::uint8_t* empty, int count) const;
-  std::uint64_t classifyGrey(const std::uint8_t* pixels, const std::uint8_t* empty, int count) const;
-  const BinaryMask& openAndClose();
+  CellRule ruleOf(std::size_t colour) const;
+  void findMarkers(const ImageView& image, Observation& observation);
 
   MarkerOptions options;
-  std::shared_ptr<const ColourClass> colour;
+  std::vector<ColourRange> colours;
+  std::vector<std::shared_ptr<const ColourClass>> classes;  ///< of `colours`, for `format`
   BackgroundModel background;
-  BinaryMask first;
-  BinaryMask second;
-  RegionLabeller labeller;
+  RegionFinder finder;
+  RegionSelection selection;
+  int width = 0;
+  int height = 0;
+  std::optional<PixelFormat> format;
 };
 
 void Extractor::Workspace::resize(const ImageView& image) {
-  if (image.width == first.width() && image.height == first.height()) return;
-  first.resize(image.width, image.height);
-  second.resize(image.width, image.height);
-  labeller.resize(image.width, image.height);
+  if (image.width == width && image.height == height && image.format == format) return;
+  const CellGrid grid(image);
+  width = image.width;
+  height = image.height;
+  format = image.format;
+  finder.resize(grid.width, grid.height);
+  classes.clear();
+  if (grid.layout == CellLayout::kBytes) return;
+  for (const ColourRange& colour : colours)
+    classes.push_back(
+        ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
 }
 
-void Extractor::Workspace::classify(const ImageView& image) {
-  const bool in_colour = image.format == PixelFormat::kBgr8;
-  const int channels = in_colour ? 3 : 1;
+CellRule Extractor::Workspace::ruleOf(std::size_t colour) const {
+  return {classes.empty() ? nullptr : classes[colour].get(),
+          static_cast<std::uint8_t>(colours[colour].value_low),
+          static_cast<std::uint8_t>(colours[colour].value_high),
+          static_cast<std::uint8_t>(options.background_threshold)};
+}
+
+void Extractor::Workspace::findMarkers(const ImageView& image, Observation& observation) {
+  const CellGrid grid(image);
+  CellGrid empty;
   const bool has_background = background.state() == BackgroundModel::State::kReady;
-  const ImageView empty = background.view();
-  int top = image.height, bottom = -1;
-  for (int y = 0; y < image.height; ++y) {
-    std::uint64_t* words = first.row(y);
-    std::uint64_t any = 0;
-    for (int x = 0; x < image.width; x += 64) {
-      const std::uint8_t* pixels = image.row(y) + x * channels;
-      const std::uint8_t* behind = has_background ? empty.row(y) + x * channels : nullptr;
-      const int count = std::min(64, image.width - x);
-      words[x / 64] = in_colour ? classifyColour(pixels, behind, count) : classifyGrey(pixels, behind, count);
-      any |= words[x / 64];
-    }
-    if (any == 0) continue;
-    top = std::min(top, y);
-    bottom = y;
-  }
-  first.setBand(top, bottom);
-}
-
-std::uint64_t Extractor::Workspace::classifyColour(const std::uint8_t* pixels, const std::uint8_t* empty,
-                                                   int count) const {
-  if (count == 64 && !colour->mayContain64(pixels)) return 0;
-  std::uint64_t bits = 0;
-  for (int i = 0; i < count; ++i) {
-    if (!colour->contains(pixels + 3 * i)) continue;
-    if (empty != nullptr && !differs(pixels + 3 * i, empty + 3 * i, 3, options.background_threshold))
-      continue;
-    bits |= std::uint64_t{1} << i;
-  }
-  return bits;
-}
-
-std::uint64_t Extractor::Workspace::classifyGrey(const std::uint8_t* pixels, const std::uint8_t* empty,
-                                                 int count) const {
-  std::uint64_t bits = 0;
-  for (int i = 0; i < count; ++i) {
-    if (pixels[i] < options.value_low || pixels[i] > options.value_high) continue;
-    if (empty != nullptr && !differs(pixels + i, empty + i, 1, options.background_threshold)) continue;
-    bits |= std::uint64_t{1} << i;
-  }
-  return bits;
-}
-
-const BinaryMask& Extractor::Workspace::openAndClose() {
-  if (first.lastRow() < first.firstRow()) return first;
-  if (const int reach = options.opening_px / 2; reach > 0) {
-    second.erode(first, reach);
-    first.dilate(second, reach);
-  }
-  if (const int reach = options.closing_px / 2; reach > 0) {
-    second.dilate(first, reach);
-    first.erode(second, reach);
-  }
-  return first;
+  if (has_background) empty = CellGrid(background.view());
+  selection.clear();
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    selection.add(finder.find(grid, has_background ? &empty : nullptr, ruleOf(i)), static_cast<int>(i), grid);
+  for (const ColouredRegion& region : selection.sorted())
+    observation.centroids[static_cast<std::size_t>(observation.count++)] =
+        binaryCentroid(region, grid, options.centroid_sigma_px);
+  observation.truncated = selection.truncated();
 }
 
 Extractor::Extractor(const MarkerOptions& options) {
@@ -136,10 +100,7 @@ void Extractor::extract(const ImageView& image, Observation& observation) {
   work.background.update(image);
   observation.count = 0;
   observation.truncated = false;
-  if (work.background.state() != BackgroundModel::State::kTaking) {
-    work.classify(image);
-    fillCentroids(work.labeller.label(work.openAndClose()), work.options, observation);
-  }
+  if (work.background.state() != BackgroundModel::State::kTaking) work.findMarkers(image, observation);
   observation.extraction = threadCpuTime() - start;
 }
 

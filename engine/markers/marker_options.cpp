@@ -26,17 +26,22 @@ void checkOdd(const char* key, int value) {
               "give an odd number of pixels; 1 switches it off");
 }
 
+void validateRange(const ColourRange& c) {
+  checkRange("hue_low", c.hue_low, 0, 179);
+  checkRange("hue_high", c.hue_high, 0, 179);
+  checkRange("saturation_low", c.saturation_low, 0, 255);
+  checkRange("saturation_high", c.saturation_high, 0, 255);
+  checkOrder("saturation_low", c.saturation_low, "saturation_high", c.saturation_high);
+  checkRange("value_low", c.value_low, 0, 255);
+  checkRange("value_high", c.value_high, 0, 255);
+  checkOrder("value_low", c.value_low, "value_high", c.value_high);
+}
+
 }  // namespace
 
 void validate(const MarkerOptions& o) {
-  checkRange("hue_low", o.hue_low, 0, 179);
-  checkRange("hue_high", o.hue_high, 0, 179);
-  checkRange("saturation_low", o.saturation_low, 0, 255);
-  checkRange("saturation_high", o.saturation_high, 0, 255);
-  checkOrder("saturation_low", o.saturation_low, "saturation_high", o.saturation_high);
-  checkRange("value_low", o.value_low, 0, 255);
-  checkRange("value_high", o.value_high, 0, 255);
-  checkOrder("value_low", o.value_low, "value_high", o.value_high);
+  validateRange(o);
+  for (const ColourRange& colour : o.other_colours) validateRange(colour);
   checkRange("background_threshold", o.background_threshold, 0, 255);
   checkRange("background_frames", o.background_frames, 1, 10000);
   checkOdd("opening_px", o.opening_px);

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <vector>
+
 namespace helical {
 
-/// How markers are told from everything else (the paper's section IV.B). Hue is OpenCV's, 0..179.
-struct MarkerOptions {
-  int hue_low = 40;
+/// A box of colours in OpenCV's HSV. Of an image without colour only the value counts: its brightness.
+struct ColourRange {
+  int hue_low = 40;         ///< 0..179
   int hue_high = 80;        ///< smaller than `hue_low` wraps through red
   int saturation_low = 70;  ///< 0..255
   int saturation_high = 255;
   int value_low = 40;  ///< 0..255
   int value_high = 255;
+
+  bool operator==(const ColourRange&) const = default;
+};
+
+/// How markers are told from everything else (the paper's section IV.B): the first colour is the base's.
+struct MarkerOptions : ColourRange {
+  std::vector<ColourRange> other_colours;  ///< looked for each by itself; `Centroid::colour` says which
   int background_threshold = 20;  ///< largest channel difference from the background that still is background
   int background_frames = 8;      ///< averaged into the background at start
   int opening_px = 3;             ///< side of the square structuring element; 1 switches the step off

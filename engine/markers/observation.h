@@ -15,6 +15,7 @@ struct Centroid {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< px^2, for a ball that is fully visible
   double area_px = 0.0;                                      ///< pixels in the region
   double radius_px = 0.0;                                    ///< of the disc of that area
+  int colour = 0;  ///< which of the options' colours: 0 the first, then `other_colours` in order
 };
 
 /// More regions than this in one frame are clutter: the largest are kept and `truncated` is set.

@@ -2,19 +2,23 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "engine/base/clock.h"
 #include "engine/markers/colour_range.h"
-#include "engine/markers/region_labeller.h"
+#include "engine/markers/region_selection.h"
 
 namespace helical {
 namespace {
 
-/// OpenCV has no view of constant pixels; nothing here writes to them.
-cv::Mat matOf(const ImageView& image) {
-  return cv::Mat(image.height, image.width, image.format == PixelFormat::kBgr8 ? CV_8UC3 : CV_8UC1,
-                 const_cast<std::uint8_t*>(image.data), static_cast<std::size_t>(image.stride));
+/// The cells as an image in OpenCV's order: brightness, or blue, green, red.
+cv::Mat cellsOf(const ImageView& image) {
+  const CellGrid grid(image);
+  const bool in_colour = grid.layout != CellLayout::kBytes;
+  cv::Mat cells(grid.height, grid.width, in_colour ? CV_8UC3 : CV_8UC1);
+  for (int y = 0; y < grid.height; ++y)
+    for (int x = 0; x < grid.width; ++x) readCell(grid, x, y, cells.ptr(y, x));
+  if (grid.red_first) cv::cvtColor(cells, cells, cv::COLOR_RGB2BGR);
+  return cells;
 }
 
 cv::Mat differenceMask(const cv::Mat& image, const cv::Mat& background, int threshold) {
@@ -29,12 +33,12 @@ cv::Mat differenceMask(const cv::Mat& image, const cv::Mat& background, int thre
   return mask;
 }
 
-cv::Mat colourMask(const cv::Mat& image, const MarkerOptions& options) {
+cv::Mat colourMask(const cv::Mat& image, const ColourRange& colour) {
   cv::Mat mask;
   if (image.channels() == 1)
-    cv::inRange(image, cv::Scalar(options.value_low), cv::Scalar(options.value_high), mask);
+    cv::inRange(image, cv::Scalar(colour.value_low), cv::Scalar(colour.value_high), mask);
   else
-    markerColourMask(image, options, mask);
+    markerColourMask(image, colour, mask);
   return mask;
 }
 
@@ -42,40 +46,74 @@ void applyMorphology(cv::Mat& mask, int operation, int side) {
   cv::morphologyEx(mask, mask, operation, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
 }
 
+void removeIgnored(const BinaryMask& ignored, cv::Mat& mask) {
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      if (ignored.at(x, y)) mask.at<std::uint8_t>(y, x) = 0;
+}
+
+void copyMask(const cv::Mat& mask, BinaryMask& bits) {
+  bits.resize(mask.cols, mask.rows);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      if (mask.at<std::uint8_t>(y, x) != 0) bits.row(y)[x / 64] |= std::uint64_t{1} << (x % 64);
+}
+
 std::vector<Region> regionsOf(const cv::Mat& mask) {
   cv::Mat labels, statistics, centroids;
   const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centroids, 8, CV_32S);
   std::vector<Region> regions;
   for (int i = 1; i < count; ++i) {
-    const std::int64_t area = statistics.at<int>(i, cv::CC_STAT_AREA);
-    regions.push_back({area, std::llround(centroids.at<double>(i, 0) * static_cast<double>(area)),
-                       std::llround(centroids.at<double>(i, 1) * static_cast<double>(area))});
+    const int* s = statistics.ptr<int>(i);
+    const auto area = static_cast<double>(s[cv::CC_STAT_AREA]);
+    const int left = s[cv::CC_STAT_LEFT], top = s[cv::CC_STAT_TOP];
+    regions.push_back({s[cv::CC_STAT_AREA], std::llround(centroids.at<double>(i, 0) * area),
+                       std::llround(centroids.at<double>(i, 1) * area), left, top,
+                       left + s[cv::CC_STAT_WIDTH] - 1, top + s[cv::CC_STAT_HEIGHT] - 1});
   }
   return regions;
 }
 
 }  // namespace
 
+std::vector<Region> referenceRegions(const ImageView& image, const ImageView* background,
+                                     const ColourRange& colour, const MarkerOptions& options,
+                                     const BinaryMask* ignored, BinaryMask* bits) {
+  const cv::Mat cells = cellsOf(image);
+  cv::Mat mask = colourMask(cells, colour);
+  if (background != nullptr)
+    cv::bitwise_and(mask, differenceMask(cells, cellsOf(*background), options.background_threshold), mask);
+  if (ignored != nullptr) removeIgnored(*ignored, mask);
+  applyMorphology(mask, cv::MORPH_OPEN, options.opening_px);
+  applyMorphology(mask, cv::MORPH_CLOSE, options.closing_px);
+  if (bits != nullptr) copyMask(mask, *bits);
+  return regionsOf(mask);
+}
+
 ReferenceExtractor::ReferenceExtractor(const MarkerOptions& options)
     : options_(options), background_(options.background_frames) {
   validate(options);
 }
 
-void ReferenceExtractor::extract(const ImageView& view, Observation& observation) {
+void ReferenceExtractor::extract(const ImageView& image, Observation& observation) {
   const TimeNs start = threadCpuTime();
-  background_.update(view);
-  std::vector<Region> regions;
+  background_.update(image);
+  observation.count = 0;
+  observation.truncated = false;
   if (background_.state() != BackgroundModel::State::kTaking) {
-    const cv::Mat image = matOf(view);
-    cv::Mat mask = colourMask(image, options_);
-    if (background_.state() == BackgroundModel::State::kReady)
-      cv::bitwise_and(mask, differenceMask(image, matOf(background_.view()), options_.background_threshold),
-                      mask);
-    applyMorphology(mask, cv::MORPH_OPEN, options_.opening_px);
-    applyMorphology(mask, cv::MORPH_CLOSE, options_.closing_px);
-    regions = regionsOf(mask);
+    const ImageView view = background_.view();
+    const ImageView* background = hasBackground() ? &view : nullptr;
+    const CellGrid grid(image);
+    RegionSelection selection(options_);
+    selection.add(referenceRegions(image, background, options_, options_), 0, grid);
+    for (std::size_t i = 0; i < options_.other_colours.size(); ++i)
+      selection.add(referenceRegions(image, background, options_.other_colours[i], options_),
+                    static_cast<int>(i) + 1, grid);
+    for (const ColouredRegion& region : selection.sorted())
+      observation.centroids[static_cast<std::size_t>(observation.count++)] =
+          binaryCentroid(region, grid, options_.centroid_sigma_px);
+    observation.truncated = selection.truncated();
   }
-  fillCentroids(regions, options_, observation);
   observation.extraction = threadCpuTime() - start;
 }
 

@@ -2,31 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 namespace helical {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-bool isBefore(const Region& a, const Region& b) {
-  if (a.area != b.area) return a.area > b.area;
-  if (a.sum_y != b.sum_y) return a.sum_y < b.sum_y;
-  return a.sum_x < b.sum_x;
-}
-
-Centroid centroidOf(const Region& region, double sigma_px) {
-  const auto area = static_cast<double>(region.area);
-  Centroid centroid;
-  centroid.pixel = {static_cast<double>(region.sum_x) / area, static_cast<double>(region.sum_y) / area};
-  centroid.covariance = Eigen::Matrix2d::Identity() * (sigma_px * sigma_px);
-  centroid.area_px = area;
-  centroid.radius_px = std::sqrt(area / kPi);
-  return centroid;
-}
-
-}  // namespace
 
 void RegionLabeller::resize(int width, int height) {
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
@@ -38,25 +16,32 @@ void RegionLabeller::resize(int width, int height) {
   regions_.reserve(most);
 }
 
-std::span<Region> RegionLabeller::label(const BinaryMask& mask) {
+void RegionLabeller::clear() {
   parents_.clear();
   regions_.clear();
+}
+
+void RegionLabeller::label(const BinaryMask& mask, const WordRect& part) {
   current_.clear();
-  for (int y = mask.firstRow(); y <= mask.lastRow(); ++y) {
+  for (int y = part.top; y <= part.bottom; ++y) {
     std::swap(above_, current_);
-    findRuns(mask, y);
+    findRuns(mask, y, part);
     joinRuns(y);
   }
+}
+
+std::span<Region> RegionLabeller::regions() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < parents_.size(); ++i)
     if (parents_[i] == static_cast<int>(i)) regions_[count++] = regions_[i];
+  parents_.clear();
   return {regions_.data(), count};
 }
 
-void RegionLabeller::findRuns(const BinaryMask& mask, int y) {
+void RegionLabeller::findRuns(const BinaryMask& mask, int y, const WordRect& part) {
   current_.clear();
   const std::uint64_t* words = mask.row(y);
-  for (int w = 0; w < mask.wordsPerRow(); ++w) {
+  for (int w = part.left; w <= part.right; ++w) {
     std::uint64_t rest = words[w];
     while (rest != 0) {
       const int start = std::countr_zero(rest);
@@ -80,13 +65,16 @@ void RegionLabeller::joinRuns(int y) {
     if (run.label < 0) {
       run.label = static_cast<int>(parents_.size());
       parents_.push_back(run.label);
-      regions_.emplace_back();
+      regions_.push_back({0, 0, 0, run.first, y, run.last, y});
     }
     Region& region = regions_[static_cast<std::size_t>(run.label)];
     const std::int64_t length = run.last - run.first + 1;
     region.area += length;
     region.sum_x += length * (run.first + run.last) / 2;
     region.sum_y += length * y;
+    region.left = std::min(region.left, run.first);
+    region.right = std::max(region.right, run.last);
+    region.bottom = y;
   }
 }
 
@@ -107,22 +95,12 @@ int RegionLabeller::unite(int a, int b) {
   into.area += from.area;
   into.sum_x += from.sum_x;
   into.sum_y += from.sum_y;
+  into.left = std::min(into.left, from.left);
+  into.top = std::min(into.top, from.top);
+  into.right = std::max(into.right, from.right);
+  into.bottom = std::max(into.bottom, from.bottom);
   parents_[static_cast<std::size_t>(gone)] = kept;
   return kept;
-}
-
-void fillCentroids(std::span<Region> regions, const MarkerOptions& options, Observation& observation) {
-  const auto end = std::remove_if(regions.begin(), regions.end(), [&options](const Region& region) {
-    return region.area < options.minimum_area_px || region.area > options.maximum_area_px;
-  });
-  const auto found = end - regions.begin();
-  const auto kept = std::min<std::ptrdiff_t>(found, kMaxCentroids);
-  std::partial_sort(regions.begin(), regions.begin() + kept, end, isBefore);
-  observation.count = static_cast<int>(kept);
-  observation.truncated = found > kept;
-  for (std::ptrdiff_t i = 0; i < kept; ++i)
-    observation.centroids[static_cast<std::size_t>(i)] =
-        centroidOf(regions[static_cast<std::size_t>(i)], options.centroid_sigma_px);
 }
 
 }  // namespace helical

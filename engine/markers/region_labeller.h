@@ -5,26 +5,32 @@
 #include <vector>
 
 #include "engine/markers/binary_mask.h"
-#include "engine/markers/marker_options.h"
-#include "engine/markers/observation.h"
 
 namespace helical {
 
-/// One 8-connected region: its zeroth and first moments.
+/// One 8-connected region: its zeroth and first moments and its box, in cells.
 struct Region {
   std::int64_t area = 0;
   std::int64_t sum_x = 0;
   std::int64_t sum_y = 0;
+  int left = 0;
+  int top = 0;
+  int right = -1;
+  int bottom = -1;
 };
 
-/// 8-connected regions of a mask: runs of set pixels, joined by union-find. Its workspace has the size of the
-/// worst case, so that only `resize` allocates.
+/// 8-connected regions of masks: runs of set cells, joined by union-find. Its workspace has the size of the
+/// worst case, so that only `resize` allocates. One thread.
 class RegionLabeller {
  public:
   void resize(int width, int height);
 
-  /// In no particular order; valid until the next call.
-  std::span<Region> label(const BinaryMask& mask);
+  /// Forgets all regions.
+  void clear();
+  /// Adds those of one part of a mask; parts must not touch each other.
+  void label(const BinaryMask& mask, const WordRect& part);
+  /// All of them, in no particular order; valid until the next call of another function.
+  std::span<Region> regions();
 
  private:
   struct Run {
@@ -33,7 +39,7 @@ class RegionLabeller {
     int label;
   };
 
-  void findRuns(const BinaryMask& mask, int y);
+  void findRuns(const BinaryMask& mask, int y, const WordRect& part);
   void joinRuns(int y);
   int rootOf(int label);
   int unite(int a, int b);
@@ -43,9 +49,5 @@ class RegionLabeller {
   std::vector<int> parents_;
   std::vector<Region> regions_;
 };
-
-/// Turns regions into the observation's centroids: those of a marker's size, largest first (then from top to
-/// bottom, from left to right), at most kMaxCentroids. Reorders `regions`.
-void fillCentroids(std::span<Region> regions, const MarkerOptions& options, Observation& observation);
 
 }  // namespace helical

@@ -11,19 +11,50 @@ std::uint8_t grey(double value) {
   return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
+/// Which of blue, green, red a sensor's pixel measures; green where there is no mosaic.
+int mosaicChannel(PixelFormat format, int x, int y) {
+  constexpr int kBlue = 0, kGreen = 1, kRed = 2;
+  const bool odd_x = x % 2 != 0, odd_y = y % 2 != 0;
+  switch (format) {
+    case PixelFormat::kBayerRg8:
+      return odd_x != odd_y ? kGreen : odd_y ? kBlue : kRed;
+    case PixelFormat::kBayerBg8:
+      return odd_x != odd_y ? kGreen : odd_y ? kRed : kBlue;
+    case PixelFormat::kBayerGr8:
+      return odd_x == odd_y ? kGreen : odd_y ? kBlue : kRed;
+    case PixelFormat::kBayerGb8:
+      return odd_x == odd_y ? kGreen : odd_y ? kRed : kBlue;
+    default:
+      return kGreen;
+  }
+}
+
 }  // namespace
 
 Picture::Picture(int width, int height, PixelFormat format, int padding_bytes)
-    : width_(width),
+    : format_(format),
+      width_(width),
       height_(height),
-      channels_(format == PixelFormat::kBgr8 ? 3 : 1),
+      channels_(format == PixelFormat::kBgr8 || format == PixelFormat::kRgb8 ? 3 : 1),
       stride_(width * channels_ + padding_bytes),
       // The last row ends with its last pixel: readers that run over it are found by the address sanitizer.
       pixels_(static_cast<std::size_t>(stride_ * (height - 1) + width * channels_)) {}
 
 ImageView Picture::view() const {
-  return {pixels_.data(), width_, height_, stride_,
-          channels_ == 3 ? PixelFormat::kBgr8 : PixelFormat::kMono8};
+  return {pixels_.data(), width_, height_, stride_, format_};
+}
+
+Picture Picture::as(PixelFormat format, int padding_bytes) const {
+  Picture other(width_, height_, format, padding_bytes);
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const std::uint8_t* bgr = pixel(x, y);
+      std::uint8_t* out = other.pixel(x, y);
+      if (format == PixelFormat::kBgr8) std::copy_n(bgr, 3, out);
+      if (format == PixelFormat::kRgb8) std::reverse_copy(bgr, bgr + 3, out);
+      if (other.channels_ == 1) out[0] = bgr[mosaicChannel(format, x, y)];
+    }
+  return other;
 }
 
 void Picture::fill(int blue, int green, int red) {

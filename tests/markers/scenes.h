@@ -14,6 +14,9 @@ class Picture {
   Picture(int width, int height, PixelFormat format = PixelFormat::kBgr8, int padding_bytes = 0);
 
   ImageView view() const;
+  /// A BGR picture as a camera of another format gives it: with exchanged bytes, as Bayer mosaic, or its
+  /// green alone.
+  Picture as(PixelFormat format, int padding_bytes = 0) const;
   std::uint8_t* pixel(int x, int y) { return pixels_.data() + y * stride_ + x * channels_; }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -27,7 +30,10 @@ class Picture {
   void randomise(Random& random);
   void drawRandomBlocks(Random& random, int largest_side, double share_of_green);
 
+  const std::uint8_t* pixel(int x, int y) const { return pixels_.data() + y * stride_ + x * channels_; }
+
  private:
+  PixelFormat format_;
   int width_;
   int height_;
   int channels_;

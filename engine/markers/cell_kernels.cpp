@@ -1,0 +1,512 @@
+#include "engine/markers/cell_kernels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+// clang-format off: foreach_target.h includes this file once per instruction set.
+#define HWY_WANT_AVX3_DL
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/markers/cell_kernels.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace helical {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Shape = ColourBounds::Shape;
+using Tag = hn::CappedTag<std::uint8_t, 64>;
+using Bytes = hn::Vec<Tag>;
+
+constexpr int kBelowWorthVectors = 8;  ///< so many candidates of a word are looked up one by one
+
+struct Colours {
+  Bytes first, green, last;
+};
+
+HWY_INLINE Bytes broadcast(int value) {
+  return hn::Set(Tag(), static_cast<std::uint8_t>(value));
+}
+
+/// `ByteLine::of` for a vector.
+class Line {
+ public:
+  HWY_INLINE explicit Line(const ByteLine& line)
+      : whole_(broadcast(line.eighths == 8 ? 255 : 0)),
+        eighth_(broadcast((line.eighths & 1) != 0 || line.eighths == 8 ? 255 : 0)),
+        quarter_(broadcast((line.eighths & 2) != 0 || line.eighths == 8 ? 255 : 0)),
+        half_(broadcast((line.eighths & 4) != 0 || line.eighths == 8 ? 255 : 0)),
+        less_(broadcast(line.less)) {}
+
+  HWY_INLINE Bytes of(Bytes x) const {
+    Bytes y = hn::AverageRound(hn::And(x, whole_), hn::And(x, eighth_));
+    y = hn::AverageRound(y, hn::And(x, quarter_));
+    y = hn::AverageRound(y, hn::And(x, half_));
+    return hn::SaturatedSub(y, less_);
+  }
+
+ private:
+  Bytes whole_, eighth_, quarter_, half_, less_;
+};
+
+/// Pointers to a cell's bytes; `second` for quads only.
+struct Place {
+  const std::uint8_t* first;
+  const std::uint8_t* second;
+};
+
+template <CellLayout L>
+constexpr int kBytesPerCell = L == CellLayout::kBytes     ? 1
+                              : L == CellLayout::kTriples ? 3
+                                                          : 2;
+
+template <CellLayout L>
+HWY_INLINE Colours loadColours(const Place& place, std::size_t cell) {
+  const Tag d;
+  Colours c;
+  if constexpr (L == CellLayout::kTriples) {
+    hn::LoadInterleaved3(d, place.first + 3 * cell, c.first, c.green, c.last);
+  } else {
+    Bytes upper_even, upper_odd, lower_even, lower_odd;
+    hn::LoadInterleaved2(d, place.first + 2 * cell, upper_even, upper_odd);
+    hn::LoadInterleaved2(d, place.second + 2 * cell, lower_even, lower_odd);
+    if constexpr (L == CellLayout::kQuadsColourFirst) {
+      c = {upper_even, hn::AverageRound(upper_odd, lower_even), lower_odd};
+    } else {
+      c = {upper_odd, hn::AverageRound(upper_even, lower_odd), lower_even};
+    }
+  }
+  return c;
+}
+
+HWY_INLINE std::uint64_t bitsOf(hn::Mask<Tag> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Tag(), mask, bytes);
+  std::uint64_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+HWY_INLINE Bytes difference(Bytes a, Bytes b) {
+  return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
+}
+
+/// The outer bounds of a class: which cells may be of it.
+template <Shape S>
+class OuterBounds {
+ public:
+  explicit OuterBounds(const ColourBounds& b)
+      : special_(b.special),
+        lead_(broadcast(b.lead)),
+        value_low_(broadcast(b.value_low)),
+        darkest_at_most_(b.darkest_at_most),
+        darkest_at_least_(b.darkest_at_least) {}
+
+  HWY_INLINE hn::Mask<Tag> mayHold(const Colours& c) const {
+    if (special_ == 1) return test(c.green, c.last, c.first);
+    return special_ == 0 ? test(c.first, c.green, c.last) : test(c.last, c.first, c.green);
+  }
+
+ private:
+  HWY_INLINE hn::Mask<Tag> test(Bytes special, Bytes a, Bytes b) const {
+    Bytes more = hn::Max(a, b), less = hn::Min(a, b), out;
+    if constexpr (S == Shape::kDominant) {
+      out = hn::SaturatedSub(more, hn::SaturatedSub(special, lead_));
+      more = special;
+    } else if constexpr (S == Shape::kRecessive) {
+      out = hn::SaturatedSub(hn::SaturatedAdd(special, lead_), less);
+      less = special;
+    } else {
+      more = hn::Max(more, special);
+      less = hn::Min(less, special);
+      out = hn::SaturatedSub(darkest_at_least_.of(more), less);
+    }
+    out = hn::Or(out, hn::SaturatedSub(value_low_, more));
+    out = hn::Or(out, hn::SaturatedSub(less, darkest_at_most_.of(more)));
+    return hn::Eq(out, hn::Zero(Tag()));
+  }
+
+  int special_;
+  Bytes lead_, value_low_;
+  Line darkest_at_most_, darkest_at_least_;
+};
+
+class BrightnessBounds {
+ public:
+  explicit BrightnessBounds(const CellRule& rule)
+      : low_(broadcast(rule.brightness_low)), high_(broadcast(rule.brightness_high)) {}
+
+  HWY_INLINE hn::Mask<Tag> holds(Bytes v) const {
+    return hn::Eq(hn::Or(hn::SaturatedSub(low_, v), hn::SaturatedSub(v, high_)), hn::Zero(Tag()));
+  }
+
+ private:
+  Bytes low_, high_;
+};
+
+/// The inner bounds of a class: which cells are of it for certain.
+class InnerBounds {
+ public:
+  explicit InnerBounds(const ColourBounds& b)
+      : exists_(b.has_inner),
+        special_(b.special),
+        value_low_(broadcast(b.inner_value_low)),
+        value_high_(broadcast(b.inner_value_high)),
+        darkest_at_most_(b.inner_darkest_at_most),
+        a_over_b_(b.inner_a_over_b),
+        b_over_a_(b.inner_b_over_a) {}
+
+  HWY_INLINE std::uint64_t surelyHold(const Colours& c) const {
+    if (!exists_) return 0;
+    if (special_ == 1) return test(c.green, c.last, c.first);
+    return special_ == 0 ? test(c.first, c.green, c.last) : test(c.last, c.first, c.green);
+  }
+
+ private:
+  HWY_INLINE std::uint64_t test(Bytes special, Bytes a, Bytes b) const {
+    const Bytes more = hn::Max(a, b), less = hn::Min(a, b), chroma = hn::SaturatedSub(special, less);
+    Bytes out = hn::Or(hn::SaturatedSub(more, special), hn::SaturatedSub(value_low_, special));
+    out = hn::Or(out, hn::SaturatedSub(special, value_high_));
+    out = hn::Or(out, hn::SaturatedSub(less, darkest_at_most_.of(special)));
+    out = hn::Or(out, hn::SaturatedSub(hn::SaturatedSub(a, b), a_over_b_.of(chroma)));
+    out = hn::Or(out, hn::SaturatedSub(hn::SaturatedSub(b, a), b_over_a_.of(chroma)));
+    return bitsOf(hn::Eq(out, hn::Zero(Tag())));
+  }
+
+  bool exists_;
+  int special_;
+  Bytes value_low_, value_high_;
+  Line darkest_at_most_, a_over_b_, b_over_a_;
+};
+
+/// The cells of one word with room behind them for whole vectors: copied if the row ends before.
+template <CellLayout L>
+class WordCells {
+ public:
+  static constexpr int kWordBytes = 64 * kBytesPerCell<L>;
+
+  HWY_INLINE WordCells(const CellGrid& grid, int y, int word) {
+    place_.first = grid.row(y) + static_cast<std::ptrdiff_t>(word) * kWordBytes;
+    place_.second = place_.first + grid.second_row;
+    if (word * 64 + 64 <= grid.width) return;
+    const auto bytes = static_cast<std::size_t>(grid.width - word * 64) * kBytesPerCell<L>;
+    std::memset(copy_, 0, sizeof copy_);
+    std::memcpy(copy_[0], place_.first, bytes);
+    if (grid.hasQuads()) std::memcpy(copy_[1], place_.second, bytes);
+    place_ = {copy_[0], copy_[1]};
+  }
+  WordCells(const WordCells&) = delete;
+
+  const Place& place() const { return place_; }
+
+ private:
+  Place place_;
+  alignas(64) std::uint8_t copy_[2][kWordBytes];
+};
+
+HWY_INLINE std::uint64_t cellsOfWord(const CellGrid& grid, int word) {
+  const int cells = grid.width - word * 64;
+  return cells >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << cells) - 1;
+}
+
+template <CellLayout L>
+HWY_INLINE void readColour(const Place& place, int cell, std::uint8_t* c) {
+  const std::uint8_t* p = place.first + kBytesPerCell<L> * cell;
+  if constexpr (L == CellLayout::kTriples) {
+    c[0] = p[0], c[1] = p[1], c[2] = p[2];
+  } else {
+    const std::uint8_t* q = place.second + 2 * cell;
+    constexpr int kGreen = L == CellLayout::kQuadsGreenFirst ? 0 : 1;
+    c[0] = p[1 - kGreen], c[1] = static_cast<std::uint8_t>((p[kGreen] + q[1 - kGreen] + 1) / 2),
+    c[2] = q[kGreen];
+  }
+}
+
+/// Exact classification of words, three channels.
+template <CellLayout L, Shape S>
+class ColourRefiner {
+ public:
+  ColourRefiner(const CellGrid& grid, const CellGrid* background, const CellRule& rule)
+      : grid_(grid),
+        background_(background),
+        colours_(*rule.colours),
+        outer_(colours_.bounds()),
+        inner_(colours_.bounds()),
+        threshold_(rule.background_threshold) {}
+
+  HWY_INLINE std::uint64_t candidates(const Place& place) const {
+    const std::size_t lanes = hn::Lanes(Tag());
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < 64; k += lanes) bits |= bitsOf(outer_.mayHold(loadColours<L>(place, k))) << k;
+    return bits;
+  }
+
+  HWY_INLINE std::uint64_t classify(int y, int word) const {
+    const WordCells<L> cells(grid_, y, word);
+    const std::uint64_t bits = candidates(cells.place()) & cellsOfWord(grid_, word);
+    return bits == 0 ? 0 : refineAt(cells.place(), y, word, bits);
+  }
+
+  HWY_INLINE std::uint64_t refine(int y, int word, std::uint64_t bits) const {
+    const WordCells<L> cells(grid_, y, word);
+    return refineAt(cells.place(), y, word, bits);
+  }
+
+ private:
+  HWY_INLINE std::uint64_t refineAt(const Place& place, int y, int word, std::uint64_t bits) const {
+    if (std::popcount(bits) < kBelowWorthVectors) return lookUpEach(place, y, word, bits);
+    if (background_ != nullptr) bits &= foreground(place, y, word);
+    if (bits == 0) return 0;
+    const std::size_t lanes = hn::Lanes(Tag());
+    std::uint64_t sure = 0;
+    for (std::size_t k = 0; k < 64; k += lanes) sure |= inner_.surelyHold(loadColours<L>(place, k)) << k;
+    return (bits & sure) | lookUp(place, bits & ~sure);
+  }
+
+  HWY_INLINE std::uint64_t lookUp(const Place& place, std::uint64_t bits) const {
+    std::uint64_t taken = 0;
+    for (; bits != 0; bits &= bits - 1) {
+      const int cell = std::countr_zero(bits);
+      std::uint8_t c[3];
+      readColour<L>(place, cell, c);
+      taken |= static_cast<std::uint64_t>(colours_.contains(c)) << cell;
+    }
+    return taken;
+  }
+
+  HWY_INLINE std::uint64_t lookUpEach(const Place& place, int y, int word, std::uint64_t bits) const {
+    bits = lookUp(place, bits);
+    if (bits == 0 || background_ == nullptr) return bits;
+    const std::uint8_t* first =
+        background_->row(y) + static_cast<std::ptrdiff_t>(word) * 64 * kBytesPerCell<L>;
+    const Place behind{first, first + background_->second_row};
+    std::uint64_t taken = 0;
+    for (; bits != 0; bits &= bits - 1) {
+      const int cell = std::countr_zero(bits);
+      std::uint8_t c[3], b[3];
+      readColour<L>(place, cell, c);
+      readColour<L>(behind, cell, b);
+      const int most = std::max({std::abs(c[0] - b[0]), std::abs(c[1] - b[1]), std::abs(c[2] - b[2])});
+      taken |= static_cast<std::uint64_t>(most > threshold_) << cell;
+    }
+    return taken;
+  }
+
+  HWY_INLINE std::uint64_t foreground(const Place& place, int y, int word) const {
+    const WordCells<L> behind(*background_, y, word);
+    const Bytes threshold = broadcast(threshold_);
+    const std::size_t lanes = hn::Lanes(Tag());
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < 64; k += lanes) {
+      const Colours c = loadColours<L>(place, k), b = loadColours<L>(behind.place(), k);
+      const Bytes most = hn::Max(hn::Max(difference(c.first, b.first), difference(c.green, b.green)),
+                                 difference(c.last, b.last));
+      bits |= bitsOf(hn::Ne(hn::SaturatedSub(most, threshold), hn::Zero(Tag()))) << k;
+    }
+    return bits;
+  }
+
+  const CellGrid& grid_;
+  const CellGrid* background_;
+  const ColourClass& colours_;
+  OuterBounds<S> outer_;
+  InnerBounds inner_;
+  int threshold_;
+};
+
+/// Exact classification of words, brightness.
+class BrightnessRefiner {
+ public:
+  BrightnessRefiner(const CellGrid& grid, const CellGrid* background, const CellRule& rule)
+      : grid_(grid), background_(background), bounds_(rule), threshold_(rule.background_threshold) {}
+
+  HWY_INLINE std::uint64_t candidates(const Place& place) const {
+    const std::size_t lanes = hn::Lanes(Tag());
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < 64; k += lanes)
+      bits |= bitsOf(bounds_.holds(hn::LoadU(Tag(), place.first + k))) << k;
+    return bits;
+  }
+
+  HWY_INLINE std::uint64_t classify(int y, int word) const {
+    const WordCells<CellLayout::kBytes> cells(grid_, y, word);
+    const std::uint64_t bits = candidates(cells.place()) & cellsOfWord(grid_, word);
+    return bits == 0 ? 0 : refine(y, word, bits);
+  }
+
+  HWY_INLINE std::uint64_t refine(int y, int word, std::uint64_t bits) const {
+    if (background_ == nullptr) return bits;
+    const WordCells<CellLayout::kBytes> cells(grid_, y, word), behind(*background_, y, word);
+    const Bytes threshold = broadcast(threshold_);
+    const std::size_t lanes = hn::Lanes(Tag());
+    std::uint64_t foreground = 0;
+    for (std::size_t k = 0; k < 64; k += lanes) {
+      const Bytes away =
+          difference(hn::LoadU(Tag(), cells.place().first + k), hn::LoadU(Tag(), behind.place().first + k));
+      foreground |= bitsOf(hn::Ne(hn::SaturatedSub(away, threshold), hn::Zero(Tag()))) << k;
+    }
+    return bits & foreground;
+  }
+
+ private:
+  const CellGrid& grid_;
+  const CellGrid* background_;
+  BrightnessBounds bounds_;
+  int threshold_;
+};
+
+/// Calls `use` with the refiner for this layout and this class, and with the layout.
+template <CellLayout L, class Use>
+HWY_INLINE void withColourRefiner(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+                                  Use& use) {
+  switch (rule.colours->bounds().shape) {
+    case Shape::kDominant:
+      return use.template operator()<L>(ColourRefiner<L, Shape::kDominant>(grid, background, rule));
+    case Shape::kRecessive:
+      return use.template operator()<L>(ColourRefiner<L, Shape::kRecessive>(grid, background, rule));
+    case Shape::kAny:
+      return use.template operator()<L>(ColourRefiner<L, Shape::kAny>(grid, background, rule));
+  }
+}
+
+template <class Use>
+HWY_INLINE void withRefiner(const CellGrid& grid, const CellGrid* background, const CellRule& rule, Use use) {
+  switch (grid.layout) {
+    case CellLayout::kBytes:
+      return use.template operator()<CellLayout::kBytes>(BrightnessRefiner(grid, background, rule));
+    case CellLayout::kTriples:
+      return withColourRefiner<CellLayout::kTriples>(grid, background, rule, use);
+    case CellLayout::kQuadsColourFirst:
+      return withColourRefiner<CellLayout::kQuadsColourFirst>(grid, background, rule, use);
+    case CellLayout::kQuadsGreenFirst:
+      return withColourRefiner<CellLayout::kQuadsGreenFirst>(grid, background, rule, use);
+  }
+}
+
+struct FindInRow {
+  const CellGrid& grid;
+  int y, next, first_word, end_word;
+  CellWord* found;
+  int count;
+
+  template <CellLayout L, class Refiner>
+  HWY_INLINE void operator()(const Refiner& refiner) {
+    constexpr int kWordBytes = WordCells<L>::kWordBytes;
+    const std::uint8_t* row = grid.row(y);
+    const std::uint8_t* ahead = grid.row(next);
+    const int whole_words = std::min(end_word, grid.width / 64);
+    CellWord* out = found;
+    for (int w = first_word; w < whole_words; ++w) {
+      for (int byte = 0; byte < kWordBytes; byte += 64) {
+        hwy::Prefetch(ahead + w * kWordBytes + byte);
+        if constexpr (L == CellLayout::kQuadsColourFirst || L == CellLayout::kQuadsGreenFirst)
+          hwy::Prefetch(ahead + grid.second_row + w * kWordBytes + byte);
+      }
+      const std::uint8_t* cells = row + w * kWordBytes;
+      const std::uint64_t bits = refiner.candidates({cells, cells + grid.second_row});
+      if (HWY_UNLIKELY(bits != 0)) *out++ = {y, w, bits};
+    }
+    for (int w = std::max(first_word, whole_words); w < end_word; ++w) {
+      const WordCells<L> cells(grid, y, w);
+      const std::uint64_t bits = refiner.candidates(cells.place()) & cellsOfWord(grid, w);
+      if (bits != 0) *out++ = {y, w, bits};
+    }
+    count = static_cast<int>(out - found);
+  }
+};
+
+int findInRow(const CellGrid& grid, const CellRule& rule, int y, int next, int first_word, int end_word,
+              CellWord* found) {
+  int count = 0;
+  withRefiner(grid, nullptr, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
+    FindInRow find{grid, y, next, first_word, end_word, found, 0};
+    find.template operator()<L>(refiner);
+    count = find.count;
+  });
+  return count;
+}
+
+void refineWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule, CellWord* words,
+                 std::size_t count) {
+  withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
+    for (std::size_t i = 0; i < count; ++i)
+      words[i].bits = refiner.refine(words[i].row, words[i].word, words[i].bits);
+  });
+}
+
+void classifySome(const CellGrid& grid, const CellGrid* background, const CellRule& rule, CellWord* words,
+                  std::size_t count) {
+  withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
+    for (std::size_t i = 0; i < count; ++i) words[i].bits = refiner.classify(words[i].row, words[i].word);
+  });
+}
+
+void classifyAll(const CellGrid& grid, const CellGrid* background, const CellRule& rule, int y,
+                 std::uint64_t* words) {
+  withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
+    for (int w = 0; w * 64 < grid.width; ++w) words[w] = refiner.classify(y, w);
+  });
+}
+
+const char* nameOfTarget() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace helical
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace helical {
+
+HWY_EXPORT(findInRow);
+HWY_EXPORT(refineWords);
+HWY_EXPORT(classifySome);
+HWY_EXPORT(classifyAll);
+HWY_EXPORT(nameOfTarget);
+
+int findCandidates(const CellGrid& grid, const CellRule& rule, int y, int next, int first_word, int end_word,
+                   CellWord* found) {
+  return HWY_DYNAMIC_DISPATCH(findInRow)(grid, rule, y, next, first_word, end_word, found);
+}
+
+void refineCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+                      std::span<CellWord> words) {
+  HWY_DYNAMIC_DISPATCH(refineWords)(grid, background, rule, words.data(), words.size());
+}
+
+void classifyWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+                   std::span<CellWord> words) {
+  HWY_DYNAMIC_DISPATCH(classifySome)(grid, background, rule, words.data(), words.size());
+}
+
+void classifyRow(const CellGrid& grid, const CellGrid* background, const CellRule& rule, int y,
+                 std::uint64_t* words) {
+  HWY_DYNAMIC_DISPATCH(classifyAll)(grid, background, rule, y, words);
+}
+
+std::string instructionSet() {
+  return HWY_DYNAMIC_DISPATCH(nameOfTarget)();
+}
+
+std::vector<std::string> instructionSets() {
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    names.emplace_back(hwy::TargetName(target));
+  return names;
+}
+
+void useInstructionSet(const std::string& name) {
+  hwy::SetSupportedTargetsForTest(0);
+  if (!name.empty())
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+      if (name == hwy::TargetName(target)) hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace helical
+#endif

@@ -1,0 +1,191 @@
+#include "engine/markers/region_finder.h"
+
+#include <algorithm>
+
+namespace helical {
+namespace {
+
+constexpr std::size_t kMostIslands = 48;
+/// Sparse work stops being worth it when it comes to this share of the words it may come to.
+constexpr std::size_t kDenseShare = 4;
+
+}  // namespace
+
+void RegionFinder::resize(int width, int height) {
+  first_.resize(width, height);
+  second_.resize(width, height);
+  const auto words = static_cast<std::size_t>(first_.wordsPerRow()) * static_cast<std::size_t>(height);
+  hits_.resize(words);
+  around_.resize(words);
+  is_known_.assign(words, 0);
+  islands_.reserve(kMostIslands);
+  labeller_.resize(width, height);
+}
+
+std::span<Region> RegionFinder::find(const CellGrid& frame, const CellGrid* background, const CellRule& rule,
+                                     const BinaryMask* ignored, BinaryMask* mask) {
+  const Task task{frame, background, rule, ignored, mask};
+  labeller_.clear();
+  if (mask != nullptr) mask->clear(mask->everywhere());
+  const bool done = findSparsely(task);
+  forget();
+  if (!done) findDensely(task);
+  return labeller_.regions();
+}
+
+bool RegionFinder::findSparsely(const Task& task) {
+  if (!scanRows(task)) return false;
+  if (hit_count_ == 0) return true;
+  fetchAround(task);
+  const std::span hits(hits_.data(), hit_count_);
+  refineCandidates(task.frame, task.background, task.rule, hits);
+  store(task, hits);
+  if (!expandHits()) return false;
+  const std::span around(around_.data(), around_count_);
+  classifyWords(task.frame, task.background, task.rule, around);
+  store(task, around);
+  for (const WordRect& island : islands_) finish(task, first_.clip(island.grown(closing_reach_, 1)));
+  return true;
+}
+
+bool RegionFinder::scanRows(const Task& task) {
+  const int words = first_.wordsPerRow(), height = first_.height(), step = 2 * opening_reach_ + 1;
+  const int last = std::max(0, height - 1 - opening_reach_);
+  const std::size_t most =
+      static_cast<std::size_t>(words) * static_cast<std::size_t>(height / step + 1) / kDenseShare;
+  for (int y = std::min(opening_reach_, last);; y = std::min(y + step, last)) {
+    hit_count_ += static_cast<std::size_t>(findCandidates(task.frame, task.rule, y, std::min(y + step, last),
+                                                          0, words, hits_.data() + hit_count_));
+    if (hit_count_ > most) return false;
+    if (y == last) return true;
+  }
+}
+
+void RegionFinder::fetchAround(const Task& task) const {
+  const int reach = 2 * opening_reach_, bytes = 64 * task.frame.bytesPerCell();
+  for (const CellWord& hit : std::span(hits_.data(), hit_count_))
+    for (int y = std::max(0, hit.row - reach); y <= std::min(first_.height() - 1, hit.row + reach); ++y)
+      for (int byte = 0; byte < bytes; byte += 64) {
+        const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(hit.word) * bytes + byte;
+        if (y != hit.row) __builtin_prefetch(task.frame.row(y) + place);
+        if (task.background != nullptr) __builtin_prefetch(task.background->row(y) + place);
+      }
+}
+
+void RegionFinder::store(const Task& task, std::span<const CellWord> words) {
+  for (const CellWord& word : words)
+    first_.row(word.row)[word.word] =
+        task.ignored == nullptr ? word.bits : word.bits & ~task.ignored->row(word.row)[word.word];
+}
+
+bool RegionFinder::expandHits() {
+  const auto words = static_cast<std::ptrdiff_t>(first_.wordsPerRow());
+  for (const CellWord& hit : std::span(hits_.data(), hit_count_))
+    is_known_[static_cast<std::size_t>(hit.row * words + hit.word)] = 1;
+  return std::all_of(hits_.begin(), hits_.begin() + static_cast<std::ptrdiff_t>(hit_count_),
+                     [this](const CellWord& hit) { return expand(hit); });
+}
+
+std::uint64_t RegionFinder::runCentres(const CellWord& hit) const {
+  const std::uint64_t* row = first_.row(hit.row);
+  const int w = hit.word, last = first_.wordsPerRow() - 1;
+  constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  const int used = w == last && first_.width() % 64 != 0 ? first_.width() % 64 : 64;
+  const std::uint64_t beyond = used == 64 ? 0 : kAll << used;
+  const std::uint64_t here = row[w] | beyond;
+  const std::uint64_t before = w == 0 ? kAll : row[w - 1];
+  std::uint64_t after = w == last ? kAll : row[w + 1];
+  if (w + 1 == last && first_.width() % 64 != 0) after |= kAll << first_.width() % 64;
+  std::uint64_t centres = here & ~beyond;
+  for (int s = 1; s <= opening_reach_; ++s)
+    centres &= (here << s | before >> (64 - s)) & (here >> s | after << (64 - s));
+  return centres;
+}
+
+bool RegionFinder::expand(const CellWord& hit) {
+  if (first_.row(hit.row)[hit.word] == 0) return true;
+  const std::uint64_t centres = runCentres(hit);
+  if (centres == 0) return true;
+  const int words = first_.wordsPerRow();
+  const bool reaches_left = opening_reach_ > 0 && centres << (64 - opening_reach_) != 0;
+  const bool reaches_right = opening_reach_ > 0 && centres >> (64 - opening_reach_) != 0;
+  const WordRect box = first_.clip({hit.row - 2 * opening_reach_, hit.row + 2 * opening_reach_,
+                                    hit.word - (reaches_left ? 1 : 0), hit.word + (reaches_right ? 1 : 0)});
+  for (int y = box.top; y <= box.bottom; ++y)
+    for (int w = box.left; w <= box.right; ++w) {
+      std::uint8_t& known = is_known_[static_cast<std::size_t>(y) * static_cast<std::size_t>(words) +
+                                      static_cast<std::size_t>(w)];
+      if (known != 0) continue;
+      known = 1;
+      around_[around_count_++] = {y, w, 0};
+    }
+  return around_count_ <= is_known_.size() / kDenseShare && addIsland(box);
+}
+
+bool RegionFinder::addIsland(WordRect box) {
+  for (std::size_t i = 0; i < islands_.size();) {
+    // Nearer ones could be joined by the closing, or would share words with it.
+    if (!box.grown(2 * closing_reach_ + 1, 2).overlaps(islands_[i])) {
+      ++i;
+      continue;
+    }
+    box.include(islands_[i]);
+    islands_[i] = islands_.back();
+    islands_.pop_back();
+    i = 0;
+  }
+  if (islands_.size() == kMostIslands) return false;
+  islands_.push_back(box);
+  return true;
+}
+
+void RegionFinder::finish(const Task& task, const WordRect& rect) {
+  if (opening_reach_ > 0) {
+    second_.erode(first_, opening_reach_, rect);
+    first_.dilate(second_, opening_reach_, rect);
+  }
+  if (closing_reach_ > 0) {
+    second_.dilate(first_, closing_reach_, rect);
+    first_.erode(second_, closing_reach_, rect);
+  }
+  labeller_.label(first_, rect);
+  if (task.mask != nullptr)
+    for (int y = rect.top; y <= rect.bottom; ++y)
+      std::copy(first_.row(y) + rect.left, first_.row(y) + rect.right + 1, task.mask->row(y) + rect.left);
+  first_.clear(rect);
+}
+
+void RegionFinder::forget() {
+  const auto words = static_cast<std::size_t>(first_.wordsPerRow());
+  const auto forgetAll = [&](std::span<const CellWord> list) {
+    for (const CellWord& word : list) {
+      first_.row(word.row)[word.word] = 0;
+      is_known_[static_cast<std::size_t>(word.row) * words + static_cast<std::size_t>(word.word)] = 0;
+    }
+  };
+  forgetAll({hits_.data(), hit_count_});
+  forgetAll({around_.data(), around_count_});
+  hit_count_ = around_count_ = 0;
+  islands_.clear();
+}
+
+void RegionFinder::findDensely(const Task& task) {
+  labeller_.clear();
+  const int words = first_.wordsPerRow();
+  int top = first_.height(), bottom = -1;
+  for (int y = 0; y < first_.height(); ++y) {
+    std::uint64_t* row = first_.row(y);
+    classifyRow(task.frame, task.background, task.rule, y, row);
+    std::uint64_t any = 0;
+    for (int w = 0; w < words; ++w) {
+      if (task.ignored != nullptr) row[w] &= ~task.ignored->row(y)[w];
+      any |= row[w];
+    }
+    if (any == 0) continue;
+    top = std::min(top, y);
+    bottom = y;
+  }
+  if (bottom >= top) finish(task, first_.clip(WordRect{top, bottom, 0, words - 1}.grown(closing_reach_, 0)));
+}
+
+}  // namespace helical

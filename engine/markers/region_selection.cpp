@@ -1,0 +1,62 @@
+#include "engine/markers/region_selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace helical {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool isBefore(const ColouredRegion& a, const ColouredRegion& b) {
+  if (a.region.area != b.region.area) return a.region.area > b.region.area;
+  if (a.region.sum_y != b.region.sum_y) return a.region.sum_y < b.region.sum_y;
+  if (a.region.sum_x != b.region.sum_x) return a.region.sum_x < b.region.sum_x;
+  return a.colour < b.colour;
+}
+
+}  // namespace
+
+void RegionSelection::clear() {
+  count_ = 0;
+  found_ = 0;
+}
+
+void RegionSelection::add(std::span<const Region> regions, int colour, const CellGrid& grid) {
+  const std::int64_t pixels = grid.hasQuads() ? 4 : 1;
+  for (const Region& region : regions) {
+    if (region.area * pixels < options_.minimum_area_px || region.area * pixels > options_.maximum_area_px)
+      continue;
+    ++found_;
+    // A heap with the last of the kept ones on top.
+    const ColouredRegion candidate{region, colour};
+    if (count_ == kept_.size()) {
+      if (!isBefore(candidate, kept_.front())) continue;
+      std::pop_heap(kept_.begin(), kept_.end(), isBefore);
+      --count_;
+    }
+    kept_[count_++] = candidate;
+    std::push_heap(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(count_), isBefore);
+  }
+}
+
+std::span<const ColouredRegion> RegionSelection::sorted() {
+  std::sort(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(count_), isBefore);
+  return {kept_.data(), count_};
+}
+
+Centroid binaryCentroid(const ColouredRegion& coloured, const CellGrid& grid, double sigma_px) {
+  const Region& region = coloured.region;
+  const auto area = static_cast<double>(region.area);
+  const double size = cellSize(grid);
+  Centroid centroid;
+  centroid.pixel = {cellOrigin(grid) + size * (static_cast<double>(region.sum_x) / area),
+                    cellOrigin(grid) + size * (static_cast<double>(region.sum_y) / area)};
+  centroid.covariance = Eigen::Matrix2d::Identity() * (size * size * sigma_px * sigma_px);
+  centroid.area_px = area * size * size;
+  centroid.radius_px = std::sqrt(centroid.area_px / kPi);
+  centroid.colour = coloured.colour;
+  return centroid;
+}
+
+}  // namespace helical

@@ -8,8 +8,8 @@
 namespace helical {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"particle-filter", "growing-gauss-newton", "gauss-newton",
-                                                 "particle-filter-literal"};
+constexpr std::array<std::string_view, 6> kNames{"joint", "particle-filter", "growing-gauss-newton",
+                                                 "ekf",   "gauss-newton",    "particle-filter-literal"};
 
 }  // namespace
 
@@ -18,6 +18,8 @@ void validate(const CalibratorOptions& options) {
   validate(options.gauss_newton);
   validate(options.growing_gauss_newton);
   validate(options.particle_filter);
+  validate(options.ekf);
+  validate(options.joint);
 }
 
 std::span<const std::string_view> calibratorNames() {
@@ -28,6 +30,9 @@ std::unique_ptr<ExtrinsicCalibrator> makeCalibrator(std::string_view name, const
                                                     const CameraModel& camera, const MarkerLayout& markers,
                                                     std::uint64_t seed) {
   validate(options);
+  if (name == "joint")
+    return std::make_unique<JointCalibrator>(options.joint, options.guess, camera, markers);
+  if (name == "ekf") return std::make_unique<EkfCalibrator>(options.ekf, options.guess, camera, markers);
   if (name == "gauss-newton")
     return std::make_unique<FrameGaussNewton>(options.gauss_newton, options.guess, camera, markers);
   if (name == "growing-gauss-newton")

@@ -5,9 +5,11 @@
 #include <span>
 #include <string_view>
 
+#include "engine/calibration/ekf_calibrator.h"
 #include "engine/calibration/extrinsic_calibrator.h"
 #include "engine/calibration/frame_gauss_newton.h"
 #include "engine/calibration/growing_gauss_newton.h"
+#include "engine/calibration/joint_calibrator.h"
 #include "engine/calibration/particle_filter.h"
 
 namespace helical {
@@ -18,6 +20,8 @@ struct CalibratorOptions {
   FrameGaussNewtonOptions gauss_newton;
   GrowingGaussNewtonOptions growing_gauss_newton;
   ParticleFilterOptions particle_filter;
+  EkfOptions ekf;
+  JointOptions joint;
 };
 
 /// Throws Error(kInput) naming the offending key.

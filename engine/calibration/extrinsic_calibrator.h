@@ -7,6 +7,7 @@
 #include "engine/base/time.h"
 #include "engine/geometry/camera_estimate.h"
 #include "engine/geometry/rigid_transform.h"
+#include "engine/markers/observation.h"
 
 namespace helical {
 
@@ -17,14 +18,15 @@ struct LabelledPixel {
   Eigen::Matrix2d covariance = 0.25 * Eigen::Matrix2d::Identity();  ///< px^2
 };
 
-/// What one frame of an un-calibrated camera teaches: named centroids at its own exposure time, and the
+/// What one frame of an un-calibrated camera teaches: centroids at its own exposure time, and the
 /// helicopter's pose predicted to that time from the other cameras alone. `pose_covariance` is in the order
 /// of TrackedState: position in the world [m], then rotation vector on the right of world_from_body [rad].
 struct CalibrationFrame {
   TimeNs exposure = 0;
   RigidTransform world_from_body;
   Matrix6d pose_covariance = Matrix6d::Zero();
-  std::span<const LabelledPixel> pixels;
+  std::span<const LabelledPixel> pixels;     ///< named elsewhere; empty for methods that name for themselves
+  const Observation* observation = nullptr;  ///< all that the camera saw, without names, for those that do
 };
 
 /// One hypothesis of where the camera is.
@@ -52,6 +54,14 @@ class ExtrinsicCalibrator {
   /// Pose and covariance as of the last step, always with status kCalibrating: which camera may be used is
   /// decided by one rule for all methods (engine/calibration/admission.h).
   virtual CameraEstimate estimate() const = 0;
+
+  /// Whether it names centroids for itself: it then takes `CalibrationFrame::observation` and needs neither
+  /// pixels nor a good guess.
+  virtual bool namesCentroids() const { return false; }
+
+  /// The pixels of the last step, for methods that name centroids for themselves: empty while it does not
+  /// know the names. Valid until the next call.
+  virtual std::span<const LabelledPixel> named() const { return {}; }
 
   /// The hypotheses behind the estimate, for methods that have them; valid until the next call.
   virtual std::span<const WeightedPose> particles() const { return {}; }

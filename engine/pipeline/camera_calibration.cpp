@@ -1,7 +1,5 @@
 #include "engine/pipeline/camera_calibration.h"
 
-#include <array>
-
 namespace helical {
 namespace {
 
@@ -45,22 +43,26 @@ void CameraCalibration::seekLabels(const Observation& observation, const Tracked
   doubtful_since_ = -1;
 }
 
-void CameraCalibration::step(const Observation& observation, const TrackedState& helicopter) {
+std::span<const LabelledPixel> CameraCalibration::keepLabels(const Observation& observation,
+                                                             const TrackedState& helicopter) {
   if (labels_.lost()) seekLabels(observation, helicopter);
   const Names names = labels_.follow(observation);
-  std::array<LabelledPixel, kMaxMarkers> pixels;
   std::size_t count = 0;
   for (int m = 0; m < markers_.count(); ++m) {
     const int name = names[static_cast<std::size_t>(m)];
     if (name < 0) continue;
     const Centroid& centroid = observation.centroids[static_cast<std::size_t>(name)];
-    pixels[count++] = {markerId(m), centroid.pixel, centroid.covariance};
+    pixels_[count++] = {markerId(m), centroid.pixel, centroid.covariance};
   }
-  const CalibrationFrame frame{observation.exposure,
-                               helicopter.state.world_from_body,
-                               helicopter.pose_covariance,
-                               {pixels.data(), count}};
+  return {pixels_.data(), count};
+}
+
+void CameraCalibration::step(const Observation& observation, const TrackedState& helicopter) {
+  CalibrationFrame frame{
+      observation.exposure, helicopter.state.world_from_body, helicopter.pose_covariance, {}, &observation};
+  if (!calibrator_->namesCentroids()) frame.pixels = keepLabels(observation, helicopter);
   calibrator_->step(frame);
+  if (calibrator_->namesCentroids()) frame.pixels = calibrator_->named();
   judge(frame, helicopter.state.world_from_body.translation);
 }
 
@@ -75,7 +77,10 @@ void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector
   } else if (doubtful_since_ < 0) {
     doubtful_since_ = frame.exposure;
   } else if (toSeconds(frame.exposure - doubtful_since_) > kDoubtLasts) {
-    labels_.forget();  // the next frame seeks anew
+    if (calibrator_->namesCentroids())
+      calibrator_->restart(guess_);
+    else
+      labels_.forget();  // the next frame seeks anew
     doubtful_since_ = -1;
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "engine/calibration/admission.h"
@@ -12,9 +14,10 @@
 namespace helical {
 
 /// One un-calibrated camera's way into the control set (the paper's section III): its centroids get names by
-/// nested polygons and keep them from frame to frame, its calibrator learns from every frame that the other
-/// cameras see too, and the one admission rule says when it may be flown on. A labelling that does not
-/// explain the frames is given up and sought again. One thread; allocates only while it seeks a labelling.
+/// nested polygons and keep them from frame to frame, unless its calibrator names them for itself; that
+/// learns from every frame that the other cameras see too, and the one admission rule says when it may be
+/// flown on. A labelling that does not explain the frames is given up and sought again. One thread; allocates
+/// only while it seeks a labelling.
 class CameraCalibration {
  public:
   /// `guess`: a first guess of camera_from_world. Throws Error(kInput) for an unknown method.
@@ -30,13 +33,16 @@ class CameraCalibration {
 
  private:
   void seekLabels(const Observation& observation, const TrackedState& helicopter);
+  /// The method's centroids, named for it.
+  std::span<const LabelledPixel> keepLabels(const Observation& observation, const TrackedState& helicopter);
   void judge(const CalibrationFrame& frame, const Eigen::Vector3d& helicopter_in_world);
 
   CameraModel camera_;
   MarkerLayout markers_;
   RigidTransform guess_;
   std::unique_ptr<ExtrinsicCalibrator> calibrator_;
-  LabelKeeper labels_;
+  LabelKeeper labels_;  ///< for methods that do not name centroids themselves
+  std::array<LabelledPixel, kMaxMarkers> pixels_;
   AdmissionOptions admission_options_;
   AdmissionMemory admission_;
   TimeNs doubtful_since_ = -1;

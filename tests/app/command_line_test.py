@@ -112,7 +112,7 @@ class Errors(unittest.TestCase):
         self.assert_refused(run("fly", "--duration", "3"), "too short", "cure:")
         self.assert_refused(run("fly", "--seed", "abc"))
         self.assert_refused(run("fly", "--vary", "2"))
-        self.assert_refused(run("fly", "--no-images", "--calibrator", "joint"), "joint", "particle-filter")
+        self.assert_refused(run("fly", "--no-images", "--calibrator", "kalman"), "kalman", "joint")
         self.assert_refused(run("fly", "--initial-error", "15"))
         self.assert_refused(run("loop"))
 

@@ -99,11 +99,25 @@ std::vector<LabelledPixel> look(const TrainingFlight& flight, const RigidTransfo
   return pixels;
 }
 
+/// Unnamed: begins with another ball in each frame.
+Observation withoutNames(const TrainingFlight::Frame& frame, std::size_t first) {
+  Observation observation;
+  observation.exposure = frame.exposure;
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    const LabelledPixel& seen = frame.pixels[(first + i) % frame.pixels.size()];
+    Centroid& centroid = observation.centroids[static_cast<std::size_t>(observation.count++)];
+    centroid.pixel = seen.pixel;
+    centroid.covariance = seen.covariance;
+  }
+  return observation;
+}
+
 }  // namespace
 
 TrainingFlight flyForTraining(std::uint64_t seed, const TrainingFlightOptions& options) {
   Random random(seed);
   TrainingFlight flight;
+  flight.markers = options.markers;
   flight.camera = CameraModel(640, 480, 567.6, 567.6, 319.5, 239.5);
   const std::array<RigidTransform, 2> calibrated{placeCamera(-kPi / 4, random), placeCamera(kPi / 4, random)};
   flight.camera_from_world = placeCamera(kPi, random);
@@ -129,6 +143,7 @@ TrainingFlight flyForTraining(std::uint64_t seed, const TrainingFlightOptions& o
       frame.pose_information +=
           poseInformation(flight.camera, pose, flight.markers, all, poses[k], options.sigma_px);
     frame.pixels = look(flight, poses[k], options, random);
+    frame.observation = withoutNames(frame, k);
     flight.frames.push_back(std::move(frame));
   }
   return flight;

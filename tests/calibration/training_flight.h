@@ -18,6 +18,7 @@ struct TrainingFlightOptions {
   double guess_position_m = 0.4;
   double pose_position_sigma_m = 0.001;  ///< of the helicopter pose that the calibrator is told, per axis
   double pose_rotation_sigma_rad = 0.003;
+  MarkerLayout markers = MarkerLayout::paper();
 };
 
 /// A flight seen by one camera that does not know its place, as in the paper's experiment: 60 Hz, on the
@@ -31,10 +32,13 @@ struct TrainingFlight {
     Matrix6d pose_covariance;
     Matrix6d pose_information;  ///< that the calibrated cameras give in this frame alone
     std::vector<LabelledPixel> pixels;
-    CalibrationFrame view() const { return {exposure, world_from_body, pose_covariance, pixels}; }
+    Observation observation;  ///< the same without names, in an order that changes from frame to frame
+    CalibrationFrame view() const {
+      return {exposure, world_from_body, pose_covariance, pixels, &observation};
+    }
   };
 
-  MarkerLayout markers = MarkerLayout::paper();
+  MarkerLayout markers;
   CameraModel camera;
   RigidTransform camera_from_world;
   RigidTransform guess;

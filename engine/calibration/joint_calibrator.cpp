@@ -1,0 +1,130 @@
+#include "engine/calibration/joint_calibrator.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <string>
+
+#include "engine/base/error.h"
+#include "engine/geometry/camera_perturbation.h"
+
+namespace helical {
+namespace {
+
+constexpr int kRecentFrames = 256;
+constexpr int kUnitsPerLearnt = 3;     // naming and adding a frame costs as much as so many looks at one
+constexpr double kFittingFrames = 45;  // that the running share rests on
+constexpr double kLostBelow = 0.2;
+
+}  // namespace
+
+void validate(const JointOptions& options) {
+  validate(options.search);
+  validate(options.smoother);
+  if (options.frame_units < 6 || options.frame_units > 10000)
+    throw Error(ErrorKind::kInput, "frame_units of joint is " + std::to_string(options.frame_units), {},
+                "give 6 to 10000");
+}
+
+JointCalibrator::JointCalibrator(const JointOptions& options, const GuessSpread& spread,
+                                 const CameraModel& camera, const MarkerLayout& markers)
+    : options_((validate(options), options)),
+      spread_(spread),
+      markers_(markers),
+      camera_(camera),
+      search_(options.search, camera, markers),
+      smoother_(options.smoother, camera, markers),
+      recent_(kRecentFrames) {
+  restart({});
+}
+
+void JointCalibrator::restart(const RigidTransform& initial_guess) {
+  guess_ = initial_guess;
+  estimate_ = {initial_guess, covarianceOf(spread_), CameraStatus::kCalibrating};
+  forget();
+}
+
+void JointCalibrator::forget() {
+  search_.clear();
+  first_ = recent_count_ = 0;
+  locked_ = current_named_ = false;
+  fitting_ = 1.0;
+}
+
+std::span<const LabelledPixel> JointCalibrator::named() const {
+  if (!current_named_) return {};
+  return {named_.pixels.data(), static_cast<std::size_t>(named_.count)};
+}
+
+void JointCalibrator::remember(const CalibrationFrame& frame) {
+  if (recent_count_ == kRecentFrames) {
+    first_ = (first_ + 1) % kRecentFrames;
+    --recent_count_;
+  }
+  recent_[static_cast<std::size_t>((first_ + recent_count_++) % kRecentFrames)] = {
+      frame.world_from_body, frame.pose_covariance, *frame.observation};
+}
+
+void JointCalibrator::step(const CalibrationFrame& frame) {
+  current_named_ = false;
+  if (frame.observation == nullptr || frame.observation->count == 0) return;
+  remember(frame);
+  if (!locked_)
+    seek();
+  else
+    learn();
+}
+
+void JointCalibrator::seek() {
+  search_.step(recent_[static_cast<std::size_t>((first_ + recent_count_ - 1) % kRecentFrames)],
+               options_.frame_units);
+  const auto hypotheses = search_.hypotheses();
+  if (hypotheses.empty()) return;
+  if (search_.decided()) {
+    locked_ = true;
+    smoother_.start(hypotheses.front().camera_from_world);
+  }
+  // While several explain the frames, the guess is as good a judge as any.
+  const auto distance = [&](const JointSearch::Hypothesis& hypothesis) {
+    const Vector6d change = cameraPerturbation(guess_, hypothesis.camera_from_world);
+    return change.head<3>().norm() / spread_.rotation_rad + change.tail<3>().norm() / spread_.position_m;
+  };
+  const auto& nearest =
+      *std::min_element(hypotheses.begin(), hypotheses.end(),
+                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  estimate_.camera_from_world = nearest.camera_from_world;
+  estimate_.covariance = nearest.covariance();
+  for (const auto& hypothesis : hypotheses) {
+    const Vector6d apart = cameraPerturbation(nearest.camera_from_world, hypothesis.camera_from_world);
+    estimate_.covariance += apart * apart.transpose() / static_cast<double>(hypotheses.size());
+  }
+}
+
+bool JointCalibrator::lost(const UnnamedFrame& frame) {
+  const int expected = std::min(frame.observation.count, markers_.count());
+  const double share = static_cast<double>(named_.count) / expected;
+  fitting_ += (share - fitting_) / kFittingFrames;
+  return fitting_ < kLostBelow;
+}
+
+void JointCalibrator::learn() {
+  int units = options_.frame_units;
+  for (; units > 0 && recent_count_ > 0; units -= kUnitsPerLearnt) {
+    const UnnamedFrame& frame = recent_[static_cast<std::size_t>(first_)];
+    nameCentroids(camera_, markers_, estimate_.camera_from_world, estimate_.covariance, frame, named_);
+    first_ = (first_ + 1) % kRecentFrames;
+    --recent_count_;
+    if (lost(frame)) {
+      forget();
+      return;
+    }
+    smoother_.add(named_);
+  }
+  smoother_.work(units);
+  current_named_ = recent_count_ == 0;
+  const Eigen::LDLT<Matrix6d> factor(smoother_.information());
+  if (!factor.isPositive() || !(factor.vectorD().minCoeff() > 0.0)) return;
+  estimate_.camera_from_world = smoother_.pose();
+  estimate_.covariance = factor.solve(Matrix6d::Identity());
+}
+
+}  // namespace helical

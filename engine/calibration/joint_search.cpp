@@ -1,0 +1,275 @@
+#include "engine/calibration/joint_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/base/error.h"
+#include "engine/calibration/camera_perturbation.h"
+#include "engine/geometry/camera_perturbation.h"
+
+namespace helical {
+namespace {
+
+constexpr double kRobustSigmas = 4.0;
+constexpr double kMedianToScale = 2.5;    // 1.18 sigma is the median of a good fit: stays below the scale
+constexpr double kMedianSquared = 1.386;  // of a chi-square of 2 degrees of freedom
+constexpr double kInlierSigmas = 6.0;
+constexpr double kSeedRmsPx = 2.0,
+                 kSeedSigmas = 8.0;  // whichever is more: how badly a seed may fit its frame
+constexpr double kSeedRotation = 0.02, kSeedPosition = 0.06;  // how far off a planar pose may be [rad, m]
+constexpr double kSameRotation = 0.02, kSamePosition = 0.06;
+constexpr int kIterations = 12;
+constexpr double kSettledDecrease = 0.05;  // squared sigmas
+constexpr double kFarthestM = 50.0;
+constexpr int kSeedings = 3, kSeedingPause = 5, kLaterPause = 60;
+constexpr int kFewestCentroids = 3;
+
+double robustCost(double squared, double scale) {
+  const double limit = scale * scale;
+  return squared <= limit ? squared : limit * (2.0 - limit / squared);
+}
+
+bool sameMode(const RigidTransform& a, const RigidTransform& b) {
+  const Vector6d change = cameraPerturbation(a, b);
+  return change.head<3>().norm() < kSameRotation && change.tail<3>().norm() < kSamePosition;
+}
+
+double typicalSigma(const Observation& observation) {
+  return std::sqrt(0.5 * observation.centroids[0].covariance.trace());
+}
+
+}  // namespace
+
+void validate(const JointSearchOptions& options) {
+  const auto require = [](bool good, const char* key, double value, const char* cure) {
+    if (!good)
+      throw Error(ErrorKind::kInput, std::string(key) + " of joint is " + std::to_string(value), {}, cure);
+  };
+  require(options.prune_chi2 > 0.0 && options.prune_chi2 <= 1e6, "prune_chi2", options.prune_chi2,
+          "give a number above 0, at most 1e6");
+  require(options.prune_frames >= 1 && options.prune_frames <= JointSearch::kMaxFrames, "prune_frames",
+          options.prune_frames, "give 1 to 24");
+  require(options.lock_frames >= options.prune_frames && options.lock_frames <= JointSearch::kMaxFrames,
+          "lock_frames", options.lock_frames, "give prune_frames to 24");
+  require(options.lock_inliers > 0.0 && options.lock_inliers <= 1.0, "lock_inliers", options.lock_inliers,
+          "give a share above 0");
+}
+
+JointSearch::JointSearch(const JointSearchOptions& options, const CameraModel& camera,
+                         const MarkerLayout& markers)
+    : options_((validate(options), options)),
+      camera_(camera),
+      markers_(markers),
+      store_(kMaxFrames),
+      seeds_(camera_, markers) {}
+
+Matrix6d JointSearch::Hypothesis::covariance() const {
+  if (!(hessian.diagonal().minCoeff() > 0.0)) {
+    Matrix6d wide = Matrix6d::Zero();
+    wide.diagonal().head<3>().setConstant(kSeedRotation * kSeedRotation);
+    wide.diagonal().tail<3>().setConstant(kSeedPosition * kSeedPosition);
+    return wide;
+  }
+  return hessian.ldlt().solve(Matrix6d::Identity());
+}
+
+void JointSearch::clear() {
+  store_.clear();
+  waiting_count_ = 0;
+  seeds_ = AffineSeeds(camera_, markers_);
+  since_seeding_ = seedings_ = 0;
+  count_ = 0;
+  in_round_ = decided_ = false;
+}
+
+void JointSearch::step(const UnnamedFrame& frame, int units) {
+  if (frame.observation.count < kFewestCentroids) return;
+  seed(frame);
+  if (waiting_count_ == kMaxFrames) {  // a long round: the newest frames tell more than older ones
+    std::move(waiting_.begin() + 1, waiting_.end(), waiting_.begin());
+    --waiting_count_;
+  }
+  waiting_[static_cast<std::size_t>(waiting_count_++)] = frame;
+  if (!in_round_) beginRound();
+  while (units > 0) {
+    Hypothesis* next = unsettled();
+    if (next == nullptr) {
+      endRound();
+      return;
+    }
+    improve(*next);
+    units -= static_cast<int>(store_.frames().size());
+  }
+}
+
+bool JointSearch::wantsSeeds() const {
+  if (count_ == 0) return true;
+  const bool doubtful = hypotheses_[0].inliers < options_.lock_inliers * centroids_;
+  if (seedings_ < kSeedings || doubtful) return since_seeding_ >= kSeedingPause;
+  return since_seeding_ >= kLaterPause;
+}
+
+void JointSearch::seed(const UnnamedFrame& frame) {
+  ++since_seeding_;
+  if (seeds_.done()) {
+    if (frame.observation.count != markers_.count() || !wantsSeeds()) return;
+    std::array<Eigen::Vector2d, kMaxMarkers> pixels;
+    for (int c = 0; c < frame.observation.count; ++c)
+      pixels[static_cast<std::size_t>(c)] = frame.observation.centroids[static_cast<std::size_t>(c)].pixel;
+    seeds_.start({pixels.data(), static_cast<std::size_t>(frame.observation.count)}, ViewSide::kEither);
+    seed_world_from_body_ = frame.world_from_body;
+    since_seeding_ = 0;
+  }
+  const double largest_rms_px = std::max(kSeedRmsPx, kSeedSigmas * typicalSigma(frame.observation));
+  if (const auto found = seeds_.next(largest_rms_px))
+    for (int i = 0; i < found->poses.count; ++i)
+      if (const PlanarPose& pose = found->poses.poses[static_cast<std::size_t>(i)];
+          pose.rms_px < largest_rms_px)
+        addHypothesis(pose.camera_from_body * seed_world_from_body_.inverse());
+  if (seeds_.done()) ++seedings_;
+}
+
+void JointSearch::addHypothesis(const RigidTransform& camera_from_world) {
+  const bool known = std::any_of(
+      hypotheses_.begin(), hypotheses_.begin() + count_,
+      [&](const Hypothesis& other) { return sameMode(other.camera_from_world, camera_from_world); });
+  if (known || count_ == kMaxHypotheses) return;
+  Hypothesis& fresh = hypotheses_[static_cast<std::size_t>(count_++)];
+  fresh = {};
+  fresh.camera_from_world = camera_from_world;
+}
+
+void JointSearch::beginRound() {
+  for (int i = 0; i < waiting_count_; ++i) store_.add(waiting_[static_cast<std::size_t>(i)]);
+  waiting_count_ = 0;
+  centroids_ = 0;
+  for (const UnnamedFrame* frame : store_.frames()) centroids_ += frame->observation.count;
+  for (int i = 0; i < count_; ++i) {
+    Hypothesis& hypothesis = hypotheses_[static_cast<std::size_t>(i)];
+    hypothesis.evaluated = hypothesis.settled = false;
+    hypothesis.iterations = 0;
+    hypothesis.damping = 1e-3;
+  }
+  in_round_ = true;
+}
+
+JointSearch::Hypothesis* JointSearch::unsettled() {
+  const auto end = hypotheses_.begin() + count_;
+  const auto found = std::find_if(hypotheses_.begin(), end,
+                                  [](const Hypothesis& hypothesis) { return !hypothesis.settled; });
+  return found == end ? nullptr : &*found;
+}
+
+JointSearch::Hypothesis JointSearch::evaluate(const RigidTransform& pose, const Matrix6d& covariance,
+                                              double scale) const {
+  Hypothesis result;
+  result.camera_from_world = pose;
+  result.scale = scale;
+  result.evaluated = true;
+  std::array<double, kMaxFrames * kMaxMarkers> squares;
+  std::size_t count = 0;
+  StoredFrame named;
+  for (const UnnamedFrame* frame : store_.frames()) {
+    nameCentroids(camera_, markers_, pose, covariance, *frame, named);
+    for (int i = 0; i < named.count; ++i) {
+      const LabelledPixel& seen = named.pixels[static_cast<std::size_t>(i)];
+      const auto ball = projectMarker(camera_, pose, named.world_from_body, markers_.inBody(seen.marker));
+      if (!ball) continue;
+      const Eigen::Matrix2d allowed =
+          seen.covariance + ball->d_pose * named.pose_covariance * ball->d_pose.transpose();
+      const Eigen::Matrix2d information = allowed.inverse();
+      const Eigen::Vector2d residual = ball->pixel - seen.pixel;
+      const double squared = residual.dot(information * residual);
+      const double ratio = scale * scale / std::max(squared, 1e-12);
+      const Eigen::Matrix<double, 6, 2> weighted =
+          (ratio >= 1.0 ? 1.0 : ratio * ratio) * ball->d_camera.transpose() * information;
+      result.hessian.noalias() += weighted * ball->d_camera;
+      result.gradient.noalias() += weighted * residual;
+      result.cost += robustCost(squared, scale);
+      result.rank_cost += robustCost(squared, kRobustSigmas);
+      result.inliers += squared < kInlierSigmas * kInlierSigmas;
+      squares[count++] = squared;
+    }
+  }
+  const double without_name = 2.0 * (centroids_ - static_cast<int>(count));
+  result.cost += without_name * scale * scale;
+  result.rank_cost += without_name * kRobustSigmas * kRobustSigmas;
+  if (count == 0) return result;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(squares.begin(), middle, squares.begin() + static_cast<std::ptrdiff_t>(count));
+  result.median_sigmas = std::sqrt(*middle);
+  return result;
+}
+
+void JointSearch::improve(Hypothesis& hypothesis) {
+  const int iterations = hypothesis.iterations + 1;
+  const double damping = hypothesis.damping;
+  const double scale = std::max(kRobustSigmas, kMedianToScale * hypothesis.median_sigmas);
+  if (!hypothesis.evaluated) {
+    hypothesis = evaluate(hypothesis.camera_from_world, hypothesis.covariance(), scale);
+    hypothesis.iterations = iterations;
+    hypothesis.damping = damping;
+    hypothesis.settled = iterations >= kIterations;
+    return;
+  }
+  Matrix6d damped = hypothesis.hessian;
+  damped.diagonal() *= 1.0 + damping;
+  const Vector6d step = -damped.ldlt().solve(hypothesis.gradient);
+  hypothesis.iterations = iterations;
+  if (!step.allFinite()) {
+    hypothesis.settled = true;
+    return;
+  }
+  const Hypothesis trial =
+      evaluate(perturbCamera(hypothesis.camera_from_world, step), hypothesis.covariance(), hypothesis.scale);
+  const double decrease = hypothesis.cost - trial.cost;
+  if (decrease > 0.0) {
+    hypothesis = trial;
+    hypothesis.iterations = iterations;
+    hypothesis.damping = 0.2 * damping;
+    const double wanted = std::max(kRobustSigmas, kMedianToScale * trial.median_sigmas);
+    hypothesis.evaluated = std::abs(wanted - trial.scale) < 0.05 * trial.scale;
+    hypothesis.settled = hypothesis.evaluated && decrease < kSettledDecrease;
+  } else {
+    hypothesis.damping = std::max(8.0 * damping, 1e-6);
+    hypothesis.settled = hypothesis.damping > 1e3 || step.norm() < 1e-6 || decrease > -kSettledDecrease;
+  }
+  hypothesis.settled = hypothesis.settled || iterations >= kIterations;
+}
+
+void JointSearch::prune() {
+  const auto end = hypotheses_.begin() + count_;
+  std::sort(hypotheses_.begin(), end,
+            [](const Hypothesis& a, const Hypothesis& b) { return a.rank_cost < b.rank_cost; });
+  const Hypothesis& best = hypotheses_[0];
+  // Where even the best fits badly, sigma is too small: the gap grows with it.
+  const double variance = std::max(1.0, best.median_sigmas * best.median_sigmas / kMedianSquared);
+  const bool enough = static_cast<int>(store_.frames().size()) >= options_.prune_frames;
+  int kept = 0;
+  for (int i = 0; i < count_; ++i) {
+    const Hypothesis& each = hypotheses_[static_cast<std::size_t>(i)];
+    if (!each.camera_from_world.translation.allFinite() ||
+        each.camera_from_world.inverseTranslation().norm() > kFarthestM)
+      continue;
+    if (i > 0 && enough && each.rank_cost - best.rank_cost > options_.prune_chi2 * variance) break;
+    const bool twin = std::any_of(
+        hypotheses_.begin(), hypotheses_.begin() + kept,
+        [&](const Hypothesis& other) { return sameMode(other.camera_from_world, each.camera_from_world); });
+    if (!twin) hypotheses_[static_cast<std::size_t>(kept++)] = each;
+  }
+  count_ = kept;
+}
+
+void JointSearch::endRound() {
+  in_round_ = false;
+  if (count_ == 0) return;
+  prune();
+  decided_ = count_ == 1 && seedings_ >= 2 && seeds_.done() &&
+             static_cast<int>(store_.frames().size()) >= options_.lock_frames &&
+             hypotheses_[0].inliers >= options_.lock_inliers * centroids_;
+}
+
+}  // namespace helical

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "engine/calibration/joint_frame.h"
+#include "engine/calibration/thinned_store.h"
+#include "engine/correspondence/affine_seed.h"
+
+namespace helical {
+
+struct JointSearchOptions {
+  double prune_chi2 = 40.0;    ///< a hypothesis that is so much worse than the best is given up
+  int prune_frames = 8;        ///< but not before there are so many frames
+  int lock_frames = 12;        ///< as many before the last one left is believed
+  double lock_inliers = 0.45;  ///< and such a share of all centroids must fit it
+};
+
+/// Throws Error(kInput) naming the offending key.
+void validate(const JointSearchOptions& options);
+
+/// Where a camera may be and, by that, which centroid is which ball: hypotheses from labellings times the two
+/// planar poses of single frames, each refined over frames spread over the helicopter's motion by robust
+/// Levenberg-Marquardt that names the centroids anew in each iteration. The worse ones are given up; the last
+/// one left is the answer. Labellings that motion or an asymmetric layout have not yet told apart stay, so
+/// that a symmetric helicopter at rest decides nothing.
+///
+/// Refined by its own few lines and not by Ceres: a round over 24 frames must stop after each iteration to
+/// keep to its share of a camera frame, and must not allocate; a Ceres problem of that size costs about 2 ms.
+class JointSearch {
+ public:
+  static constexpr int kMaxFrames = 24;
+
+  JointSearch(const JointSearchOptions& options, const CameraModel& camera, const MarkerLayout& markers);
+  JointSearch(const JointSearch&) = delete;  // the seeds point to the camera
+  JointSearch& operator=(const JointSearch&) = delete;
+
+  void clear();
+
+  /// One frame's share of the work, in units of one frame looked at under one hypothesis: no more than
+  /// `kMaxFrames` beyond `units`.
+  void step(const UnnamedFrame& frame, int units);
+
+  /// Where the camera may be; between rounds the best one is the first.
+  struct Hypothesis {
+    RigidTransform camera_from_world;
+    Matrix6d hessian = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+    double scale = 0.0;      ///< robust scale that `cost` belongs to
+    double cost = 0.0;       ///< squared sigmas, minimised
+    double rank_cost = 0.0;  ///< the same at the final scale: comparable between hypotheses
+    double median_sigmas = 0.0;
+    int inliers = 0;
+    double damping = 1e-3;
+    int iterations = 0;  ///< in this round
+    bool evaluated = false;
+    bool settled = false;  ///< in this round
+
+    Matrix6d covariance() const;
+  };
+  std::span<const Hypothesis> hypotheses() const {
+    return {hypotheses_.data(), static_cast<std::size_t>(count_)};
+  }
+
+  /// Whether the first hypothesis is the answer.
+  bool decided() const { return decided_; }
+
+ private:
+  static constexpr int kMaxHypotheses = 24;
+
+  void seed(const UnnamedFrame& frame);
+  void addHypothesis(const RigidTransform& camera_from_world);
+  void beginRound();
+  void endRound();
+  Hypothesis* unsettled();
+  void improve(Hypothesis& hypothesis);
+  Hypothesis evaluate(const RigidTransform& pose, const Matrix6d& covariance, double scale) const;
+  void prune();
+  bool wantsSeeds() const;
+
+  JointSearchOptions options_;
+  CameraModel camera_;
+  MarkerLayout markers_;
+  ThinnedStore<UnnamedFrame> store_;
+  std::array<UnnamedFrame, kMaxFrames> waiting_;  ///< came during a round, which needs the same frames
+  int waiting_count_ = 0;
+  AffineSeeds seeds_;
+  RigidTransform seed_world_from_body_;
+  int since_seeding_ = 0, seedings_ = 0;
+  std::array<Hypothesis, kMaxHypotheses> hypotheses_;
+  int count_ = 0;
+  int centroids_ = 0;  ///< in the store's frames
+  bool in_round_ = false;
+  bool decided_ = false;
+};
+
+}  // namespace helical

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/calibration/marginal_resection.h"
 #include "engine/calibration/pose_modes.h"
@@ -16,7 +18,7 @@ void validate(const GrowingGaussNewtonOptions& options);
 
 /// Robust Gauss-Newton over all frames so far, thinned to `kept_frames` (see FrameStore). Solved again
 /// whenever the kept frames have grown, or changed, by a sixteenth; now and then the mirror image of the
-/// solution is tried.
+/// solution is tried. Both spread over several steps.
 class GrowingGaussNewton final : public ExtrinsicCalibrator {
  public:
   GrowingGaussNewton(const GrowingGaussNewtonOptions& options, const GuessSpread& spread,
@@ -28,8 +30,8 @@ class GrowingGaussNewton final : public ExtrinsicCalibrator {
   CameraEstimate estimate() const override { return estimate_; }
 
  private:
-  void checkModes();
-  void solve();
+  void checkModes(int& budget);
+  void solve(int& budget);
 
   GrowingGaussNewtonOptions options_;
   GuessSpread spread_;
@@ -37,6 +39,11 @@ class GrowingGaussNewton final : public ExtrinsicCalibrator {
   MarkerLayout markers_;
   FrameStore store_;
   ModeSchedule schedule_;
+  ModeSearch search_;
+  bool search_due_ = false;
+  ResectionRun run_;
+  std::vector<StoredFrame> solved_;  ///< what `run_` looks at, while the store goes on
+  std::vector<const StoredFrame*> solved_order_;
   int unsolved_ = 0;
   RigidTransform guess_;
   CameraEstimate estimate_;

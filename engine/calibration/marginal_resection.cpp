@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/geometry/camera_perturbation.h"
@@ -12,24 +13,14 @@
 namespace helical {
 namespace {
 
-constexpr double kUnseenCost = 1e6;       // squared sigmas, where a ball would be behind the camera
-constexpr double kFarthestM = 50.0;       // a solution beyond has diverged
-constexpr double kMedianToScale = 2.5;    // 1.18 sigma is the median of a good fit: stays below the scale
-constexpr double kConvergedStep = 1e-7;   // rad and m
-constexpr std::size_t kMaxSampled = 512;  // residuals that the median is taken from
+constexpr double kUnseenCost = 1e6;      // squared sigmas, where a ball would be behind the camera
+constexpr double kFarthestM = 50.0;      // a solution beyond has diverged
+constexpr double kMedianToScale = 2.5;   // 1.18 sigma is the median of a good fit: stays below the scale
+constexpr double kConvergedStep = 1e-7;  // rad and m
 
-/// Normal equations of one frame or of all.
-struct Normal {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  double cost = 0.0;
-  int terms = 0;
-};
-
-struct Residuals {
-  std::array<double, kMaxSampled> squared;
-  std::size_t count = 0;
-};
+using Normal = ResectionRun::Normal;
+using Residuals = ResectionRun::Residuals;
+using Matrix67d = Eigen::Matrix<double, 6, 7>;
 
 struct Loss {
   double cost;
@@ -42,6 +33,32 @@ Loss loss(double squared, double scale) {
   if (scale <= 0.0 || squared <= limit) return {squared, 1.0};
   const double ratio = limit / squared;
   return {limit * (2.0 - ratio), ratio * ratio};
+}
+
+/// Lower triangular root of a positive semidefinite matrix (Cholesky); zero where it is zero.
+Matrix6d triangularRoot(const Matrix6d& matrix) {
+  Matrix6d root = Matrix6d::Zero();
+  for (int k = 0; k < 6; ++k) {
+    double pivot = matrix(k, k);
+    for (int j = 0; j < k; ++j) pivot -= root(k, j) * root(k, j);
+    if (!(pivot > 0.0)) continue;
+    root(k, k) = std::sqrt(pivot);
+    const double inverse = 1.0 / root(k, k);
+    for (int i = k + 1; i < 6; ++i) {
+      double sum = matrix(i, k);
+      for (int j = 0; j < k; ++j) sum -= root(i, j) * root(k, j);
+      root(i, k) = sum * inverse;
+    }
+  }
+  return root;
+}
+
+/// right = root^-1 right, row by row: Eigen's solver of general size takes three times as long.
+void substituteForward(const Matrix6d& root, Matrix67d& right) {
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) right.row(i) -= root(i, j) * right.row(j);
+    right.row(i) *= 1.0 / root(i, i);
+  }
 }
 
 void addFrame(const CameraModel& camera, const MarkerLayout& markers, const StoredFrame& frame,
@@ -70,29 +87,22 @@ void addFrame(const CameraModel& camera, const MarkerLayout& markers, const Stor
     gradient.noalias() += camera_weighted * residual;
     pose_gradient.noalias() += pose_weighted * residual;
     total.cost += robust.cost;
-    if (residuals.count < kMaxSampled) residuals.squared[residuals.count++] = squared;
+    if (residuals.count < residuals.squared.size()) residuals.squared[residuals.count++] = squared;
   }
-  // (P^-1 + A)^-1 = P (I + A P)^-1 holds also for a pose that is known exactly, P = 0.
-  const Matrix6d& covariance = frame.pose_covariance;
-  Matrix6d inner = Matrix6d::Identity();
-  inner.noalias() += pose_pose * covariance;
-  const Eigen::PartialPivLU<Matrix6d> solver(inner);
-  const Matrix6d absorbed = covariance * solver.solve(pose_camera);
-  const Vector6d absorbed_gradient = covariance * solver.solve(pose_gradient);
   total.hessian += camera_camera;
-  total.hessian.noalias() -= pose_camera.transpose() * absorbed;
   total.gradient += gradient;
-  total.gradient.noalias() -= pose_camera.transpose() * absorbed_gradient;
-  total.cost -= pose_gradient.dot(absorbed_gradient);
-}
-
-Normal evaluate(const CameraModel& camera, const MarkerLayout& markers,
-                std::span<const StoredFrame* const> frames, const RigidTransform& pose, double scale,
-                Residuals& residuals) {
-  Normal total;
-  residuals.count = 0;
-  for (const StoredFrame* frame : frames) addFrame(camera, markers, *frame, pose, scale, total, residuals);
-  return total;
+  // With P = L L^T, (P^-1 + A)^-1 = L (I + L^T A L)^-1 L^T: holds also for a pose known exactly, P = 0.
+  const Matrix6d root = triangularRoot(frame.pose_covariance);
+  Matrix6d inner = Matrix6d::Identity();
+  inner.noalias() += root.transpose() * Matrix6d(pose_pose * root);
+  Matrix67d coupling;
+  coupling.leftCols<6>().noalias() = root.transpose() * pose_camera;
+  coupling.col(6).noalias() = root.transpose() * pose_gradient;
+  substituteForward(triangularRoot(inner), coupling);
+  const auto absorbed = coupling.leftCols<6>();
+  total.hessian.noalias() -= absorbed.transpose() * absorbed;
+  total.gradient.noalias() -= absorbed.transpose() * coupling.col(6);
+  total.cost -= coupling.col(6).squaredNorm();
 }
 
 double robustScale(Residuals& residuals, double robust_sigmas) {
@@ -105,47 +115,113 @@ double robustScale(Residuals& residuals, double robust_sigmas) {
 
 }  // namespace
 
+void ResectionRun::start(std::span<const StoredFrame* const> frames, const RigidTransform& initial,
+                         const MarginalResectionOptions& options) {
+  frames_ = frames;
+  options_ = options;
+  result_ = {};
+  result_.camera_from_world = initial;
+  scale_ = options.robust_sigmas;
+  damping_ = options.damped ? 1e-3 : 0.0;
+  iteration_ = 0;
+  beginPass(Pass::kInitial, initial);
+}
+
+void ResectionRun::advance(const CameraModel& camera, const MarkerLayout& markers, int& budget) {
+  while (running()) {
+    for (; next_frame_ < frames_.size(); ++next_frame_, --budget) {
+      if (budget <= 0) return;
+      addFrame(camera, markers, *frames_[next_frame_], evaluated_, scale_, sum_, residuals_);
+    }
+    finishPass();
+  }
+}
+
+void ResectionRun::beginPass(Pass pass, const RigidTransform& pose) {
+  pass_ = pass;
+  evaluated_ = pose;
+  next_frame_ = 0;
+  sum_ = {};
+  residuals_.count = 0;
+}
+
+void ResectionRun::finishPass() {
+  switch (pass_) {
+    case Pass::kNone:
+      break;
+    case Pass::kInitial:
+      current_ = sum_;
+      iterate();
+      break;
+    case Pass::kRescaled:
+      current_ = sum_;
+      takeStep();
+      break;
+    case Pass::kTrial:
+      judgeTrial();
+      break;
+    case Pass::kFinal:
+      current_ = sum_;
+      conclude();
+      break;
+  }
+}
+
+void ResectionRun::iterate() {
+  if (iteration_++ >= options_.iterations) return finish();
+  const double wanted = robustScale(residuals_, options_.robust_sigmas);
+  if (!(std::abs(wanted - scale_) > 0.05 * scale_)) return takeStep();
+  scale_ = wanted;
+  beginPass(Pass::kRescaled, result_.camera_from_world);
+}
+
+void ResectionRun::takeStep() {
+  Matrix6d damped = current_.hessian;
+  damped.diagonal() *= 1.0 + damping_;
+  step_ = -damped.ldlt().solve(current_.gradient);
+  if (step_.allFinite())
+    beginPass(Pass::kTrial, perturbCamera(result_.camera_from_world, step_));
+  else
+    pass_ = Pass::kNone;
+}
+
+void ResectionRun::judgeTrial() {
+  const bool settled = step_.norm() < kConvergedStep;
+  if (options_.damped && !(sum_.cost < current_.cost)) {
+    damping_ = std::max(damping_ * 8.0, 1e-6);
+    return damping_ > 1e8 || settled ? finish() : iterate();
+  }
+  damping_ *= 0.2;
+  result_.camera_from_world = evaluated_;
+  current_ = sum_;
+  settled ? finish() : iterate();
+}
+
+void ResectionRun::finish() {
+  if (!(scale_ > options_.robust_sigmas)) return conclude();
+  scale_ = options_.robust_sigmas;
+  beginPass(Pass::kFinal, result_.camera_from_world);
+}
+
+void ResectionRun::conclude() {
+  pass_ = Pass::kNone;
+  result_.information = current_.hessian;
+  result_.cost = current_.cost;
+  result_.terms = current_.terms;
+  const Eigen::LDLT<Matrix6d> factor(current_.hessian);
+  result_.ok = current_.terms >= 3 && current_.hessian.allFinite() && factor.isPositive() &&
+               factor.vectorD().minCoeff() > 0.0 &&
+               result_.camera_from_world.inverseTranslation().norm() < kFarthestM;
+}
+
 MarginalResection resect(const CameraModel& camera, const MarkerLayout& markers,
                          std::span<const StoredFrame* const> frames, const RigidTransform& initial,
                          const MarginalResectionOptions& options) {
-  MarginalResection result;
-  result.camera_from_world = initial;
-  Residuals residuals;
-  double scale = options.robust_sigmas;
-  Normal current = evaluate(camera, markers, frames, initial, scale, residuals);
-  double damping = options.damped ? 1e-3 : 0.0;
-  for (int i = 0; i < options.iterations; ++i) {
-    const double wanted_scale = robustScale(residuals, options.robust_sigmas);
-    if (std::abs(wanted_scale - scale) > 0.05 * scale) {
-      scale = wanted_scale;
-      current = evaluate(camera, markers, frames, result.camera_from_world, scale, residuals);
-    }
-    Matrix6d damped = current.hessian;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector6d step = -damped.ldlt().solve(current.gradient);
-    if (!step.allFinite()) return result;
-    const RigidTransform trial = perturbCamera(result.camera_from_world, step);
-    const Normal next = evaluate(camera, markers, frames, trial, scale, residuals);
-    if (options.damped && !(next.cost < current.cost)) {
-      damping = std::max(damping * 8.0, 1e-6);
-      if (damping > 1e8 || step.norm() < kConvergedStep) break;
-      continue;
-    }
-    damping *= 0.2;
-    result.camera_from_world = trial;
-    current = next;
-    if (step.norm() < kConvergedStep) break;
-  }
-  if (scale > options.robust_sigmas)
-    current = evaluate(camera, markers, frames, result.camera_from_world, options.robust_sigmas, residuals);
-  result.information = current.hessian;
-  result.cost = current.cost;
-  result.terms = current.terms;
-  const Eigen::LDLT<Matrix6d> factor(current.hessian);
-  result.ok = current.terms >= 3 && current.hessian.allFinite() && factor.isPositive() &&
-              factor.vectorD().minCoeff() > 0.0 &&
-              result.camera_from_world.inverseTranslation().norm() < kFarthestM;
-  return result;
+  ResectionRun run;
+  run.start(frames, initial, options);
+  int budget = std::numeric_limits<int>::max();
+  run.advance(camera, markers, budget);
+  return run.result();
 }
 
 }  // namespace helical

@@ -59,6 +59,7 @@ ParticleFilter::ParticleFilter(ParticleFilterKind kind, const ParticleFilterOpti
       seed_(seed),
       cloud_(options.particles, seed),
       store_(static_cast<int>(kModeFrames)),
+      search_(camera, markers),
       log_likelihoods_(static_cast<std::size_t>(options.particles)) {
   restart({});
 }
@@ -67,6 +68,8 @@ void ParticleFilter::restart(const RigidTransform& initial_guess) {
   cloud_.restart(seed_);
   store_.clear();
   schedule_ = {};
+  search_.stop();
+  search_due_ = false;
   guess_ = initial_guess;
   estimate_ = {initial_guess, covarianceOf(spread_), CameraStatus::kCalibrating};
   started_ = kind_ == ParticleFilterKind::kLiteral;
@@ -82,16 +85,23 @@ void ParticleFilter::step(const CalibrationFrame& frame) {
   if (frame.pixels.empty()) return;
   if (kind_ == ParticleFilterKind::kStabilised) {
     store_.add(frame);
-    if (schedule_.due()) considerModes();
+    considerModes();
   }
   if (started_) filter(frame);
 }
 
 void ParticleFilter::considerModes() {
-  const ModeChoice choice =
-      chooseMode(camera_, markers_, store_.frames(), estimate_.camera_from_world, guess_);
-  if (!choice.best.ok || (started_ && !choice.other_mode)) return;
-  seedAround(choice.best);
+  search_due_ = schedule_.due() || search_due_;
+  if (search_due_ && !search_.running()) {
+    search_due_ = false;
+    search_.start(store_.frames(), estimate_.camera_from_world, guess_);
+  }
+  if (!search_.running()) return;
+  int budget = kFramesPerStep;
+  search_.advance(estimate_.camera_from_world, budget);
+  if (search_.running()) return;
+  const ModeChoice& choice = search_.choice();
+  if (choice.best.ok && (!started_ || choice.other_mode)) seedAround(choice.best);
 }
 
 void ParticleFilter::seedAround(const MarginalResection& resection) {

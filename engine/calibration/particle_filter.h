@@ -68,6 +68,8 @@ class ParticleFilter final : public ExtrinsicCalibrator {
   mutable ParticleCloud cloud_;  ///< writes its poses out on demand
   FrameStore store_;
   ModeSchedule schedule_;
+  ModeSearch search_;
+  bool search_due_ = false;
   std::vector<float> log_likelihoods_;
   std::array<BearingTarget, kMaxMarkers> targets_;
   bool started_ = false;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/check.h"
 #include "engine/calibration/camera_perturbation.h"
 #include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/planar_pnp.h"
@@ -42,22 +43,16 @@ bool sameMode(const RigidTransform& a, const RigidTransform& b) {
   return change.head<3>().norm() < kSameRotationRad && change.tail<3>().norm() < kSamePositionM;
 }
 
-/// Poses that need no guess, from the newest frame with enough of a flat layout's balls.
-struct Starts {
-  std::array<RigidTransform, 2> poses;
-  int count = 0;
-};
-
-Starts planarStarts(const CameraModel& camera, const MarkerLayout& markers,
-                    std::span<const StoredFrame* const> frames) {
+/// Poses that need no guess, from the newest frame with enough of a flat layout's balls: returns how many.
+int planarStarts(const CameraModel& camera, const MarkerLayout& markers,
+                 std::span<const StoredFrame* const> frames, std::array<RigidTransform, 2>& starts) {
   const auto all = markers.all();
   const bool flat = std::all_of(all.begin(), all.end(), [&](const Eigen::Vector3d& marker) {
     return std::abs(marker.z() - all.front().z()) < kFlatM;
   });
-  Starts starts;
   const auto newest = std::find_if(frames.rbegin(), frames.rend(),
                                    [](const StoredFrame* frame) { return frame->count >= 4; });
-  if (!flat || newest == frames.rend()) return starts;
+  if (!flat || newest == frames.rend()) return 0;
   const StoredFrame& frame = **newest;
   std::array<Eigen::Vector3d, kMaxMarkers> points;
   std::array<Eigen::Vector2d, kMaxMarkers> pixels;
@@ -68,19 +63,9 @@ Starts planarStarts(const CameraModel& camera, const MarkerLayout& markers,
   const auto count = static_cast<std::size_t>(frame.count);
   const PlanarPoses solutions = solvePlanarPnp(camera, {points.data(), count}, {pixels.data(), count});
   const RigidTransform body_from_world = frame.world_from_body.inverse();
-  for (; starts.count < solutions.count; ++starts.count) {
-    const auto i = static_cast<std::size_t>(starts.count);
-    starts.poses[i] = solutions.poses[i].camera_from_body * body_from_world;
-  }
-  return starts;
-}
-
-/// Solves from another start and keeps the result if it is better.
-void consider(const CameraModel& camera, const MarkerLayout& markers,
-              std::span<const StoredFrame* const> frames, const RigidTransform& start,
-              MarginalResection& best) {
-  const MarginalResection other = resect(camera, markers, frames, start, kSolve);
-  if (other.ok && (!best.ok || other.cost < best.cost - kBetter)) best = other;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(solutions.count); ++i)
+    starts[i] = solutions.poses[i].camera_from_body * body_from_world;
+  return solutions.count;
 }
 
 }  // namespace
@@ -101,25 +86,89 @@ RigidTransform mirroredPose(const RigidTransform& camera_from_world, const Rigid
   return other * world_from_body.inverse();
 }
 
-ModeChoice chooseMode(const CameraModel& camera, const MarkerLayout& markers,
-                      std::span<const StoredFrame* const> frames, const RigidTransform& current,
-                      const RigidTransform& guess) {
-  ModeChoice choice;
-  choice.best = resect(camera, markers, frames, current, kSolve);
-  if (frames.empty()) return choice;
-  const RigidTransform refined = choice.best.camera_from_world;
-  consider(camera, markers, frames, mirroredPose(refined, frames.back()->world_from_body, markers),
-           choice.best);
-  consider(camera, markers, frames, guess, choice.best);
-  if (!choice.best.ok || choice.best.cost > kPoorFit * choice.best.terms) {
-    const Starts starts = planarStarts(camera, markers, frames);
-    for (int i = 0; i < starts.count; ++i)
-      consider(camera, markers, frames, starts.poses[static_cast<std::size_t>(i)], choice.best);
+void ModeSearch::start(std::span<const StoredFrame* const> frames, const RigidTransform& in_use,
+                       const RigidTransform& guess) {
+  HELICAL_CHECK(!frames.empty() && frames.size() <= kModeFrames);
+  count_ = frames.size();
+  for (std::size_t i = 0; i < count_; ++i) {
+    frames_[i] = *frames[i];
+    order_[i] = &frames_[i];
   }
-  const double cost_in_use = resect(camera, markers, frames, current, {.iterations = 0}).cost;
-  choice.other_mode = choice.best.ok && (!sameMode(refined, choice.best.camera_from_world) ||
-                                         choice.best.cost < cost_in_use - kLost);
-  return choice;
+  first_ = in_use;
+  guess_ = guess;
+  choice_ = {};
+  stage_ = Stage::kInUse;
+  run_.start({order_.data(), count_}, first_, kSolve);
+}
+
+void ModeSearch::advance(const RigidTransform& in_use, int& budget) {
+  while (running()) {
+    run_.advance(camera_, markers_, budget);
+    if (run_.running()) return;
+    take(run_.result());
+    if (running())
+      run_.start({order_.data(), count_}, startPose(in_use),
+                 stage_ == Stage::kCompare ? MarginalResectionOptions{.iterations = 0} : kSolve);
+  }
+}
+
+RigidTransform ModeSearch::startPose(const RigidTransform& in_use) const {
+  switch (stage_) {
+    case Stage::kMirrored:
+      return mirroredPose(refined_, frames_[count_ - 1].world_from_body, markers_);
+    case Stage::kGuess:
+      return guess_;
+    case Stage::kFirstPlanar:
+      return planar_[0];
+    case Stage::kSecondPlanar:
+      return planar_[1];
+    case Stage::kCompare:
+      return in_use;
+    case Stage::kInUse:
+    case Stage::kIdle:
+      break;
+  }
+  return first_;
+}
+
+void ModeSearch::consider(const MarginalResection& solution) {
+  MarginalResection& best = choice_.best;
+  if (solution.ok && (!best.ok || solution.cost < best.cost - kBetter)) best = solution;
+}
+
+ModeSearch::Stage ModeSearch::afterGuess() {
+  const bool fits = choice_.best.ok && choice_.best.cost <= kPoorFit * choice_.best.terms;
+  planar_count_ = fits ? 0 : planarStarts(camera_, markers_, {order_.data(), count_}, planar_);
+  return planar_count_ > 0 ? Stage::kFirstPlanar : Stage::kCompare;
+}
+
+void ModeSearch::take(const MarginalResection& solution) {
+  if (stage_ == Stage::kCompare) {
+    choice_.other_mode = choice_.best.ok && (!sameMode(refined_, choice_.best.camera_from_world) ||
+                                             choice_.best.cost < solution.cost - kLost);
+    stage_ = Stage::kIdle;
+    return;
+  }
+  consider(solution);
+  switch (stage_) {
+    case Stage::kInUse:
+      choice_.best = solution;
+      refined_ = solution.camera_from_world;
+      stage_ = Stage::kMirrored;
+      break;
+    case Stage::kMirrored:
+      stage_ = Stage::kGuess;
+      break;
+    case Stage::kGuess:
+      stage_ = afterGuess();
+      break;
+    case Stage::kFirstPlanar:
+      stage_ = planar_count_ > 1 ? Stage::kSecondPlanar : Stage::kCompare;
+      break;
+    default:
+      stage_ = Stage::kCompare;
+      break;
+  }
 }
 
 bool ModeSchedule::due() {

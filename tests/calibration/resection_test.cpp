@@ -101,18 +101,41 @@ TEST(MirroredPose, IsItsOwnInverseAndProjectsAlmostAlike) {
   EXPECT_LT(test::orientationError(again, flight.camera_from_world), 1e-7);
 }
 
-TEST(ChooseMode, LeavesTheMirrorImageForTheCamera) {
+ModeChoice searched(ModeSearch& search, const FrameStore& store, const RigidTransform& in_use,
+                    const RigidTransform& guess, int frames_at_a_time) {
+  search.start(store.frames(), in_use, guess);
+  while (search.running()) {
+    int budget = frames_at_a_time;
+    search.advance(in_use, budget);
+    EXPECT_GE(budget, 0);
+  }
+  return search.choice();
+}
+
+TEST(ModeSearch, LeavesTheMirrorImageForTheCamera) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const TrainingFlight flight = flyForTraining(seed, {.duration_s = 4.0});
     const FrameStore store = storeOf(flight, static_cast<int>(kModeFrames));
     const RigidTransform mirrored =
         mirroredPose(flight.camera_from_world, flight.frames.back().true_world_from_body, flight.markers);
-    const ModeChoice choice = chooseMode(flight.camera, flight.markers, store.frames(), mirrored, mirrored);
+    ModeSearch search(flight.camera, flight.markers);
+    const ModeChoice choice = searched(search, store, mirrored, mirrored, 1000);
     EXPECT_TRUE(choice.other_mode);
     EXPECT_LT(test::positionError(choice.best.camera_from_world, flight.camera_from_world), 0.03);
-    EXPECT_FALSE(
-        chooseMode(flight.camera, flight.markers, store.frames(), choice.best.camera_from_world, flight.guess)
-            .other_mode);
+    EXPECT_FALSE(searched(search, store, choice.best.camera_from_world, flight.guess, 1000).other_mode);
+  }
+}
+
+TEST(ModeSearch, InSlicesFindsTheSameBits) {
+  const TrainingFlight flight = flyForTraining(5, {.duration_s = 2.0});
+  const FrameStore store = storeOf(flight, static_cast<int>(kModeFrames));
+  ModeSearch search(flight.camera, flight.markers);
+  const ModeChoice whole = searched(search, store, flight.guess, flight.guess, 1'000'000);
+  for (const int slice : {1, 7, 24, 100}) {
+    const ModeChoice sliced = searched(search, store, flight.guess, flight.guess, slice);
+    EXPECT_EQ(sliced.best.camera_from_world.translation, whole.best.camera_from_world.translation);
+    EXPECT_EQ(sliced.best.information, whole.best.information);
+    EXPECT_EQ(sliced.best.cost, whole.best.cost);
   }
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCoveredFromS = 13.0;
-constexpr double kSessionS = 45.0;  // 25 s and time to spare; who has not landed then never will
+constexpr double kSessionS = 25.0;
+constexpr double kLimitS = 45.0;  // who has not landed then never will
 constexpr double kOutliers = 0.01, kLostMarkers = 0.03;
 const CameraId kCoveredCamera = cameraId(1), kLearner = cameraId(2);
 
@@ -31,7 +32,7 @@ RigConfig configured(const RigConfig& paper_rig, const MatsukawaArm& arm, std::u
   rig.simulation.images = images;
   rig.simulation.noise.outliers = kOutliers;
   rig.simulation.noise.lost_markers = kLostMarkers;
-  rig.simulation.occlusions = {{kCoveredCamera, kCoveredFromS, kSessionS}};
+  rig.simulation.occlusions = {{kCoveredCamera, kCoveredFromS, kLimitS}};
   if (arm.calibrator.empty()) return rig;
   rig.calibrator = arm.calibrator;
   giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, seed, true);
@@ -90,7 +91,7 @@ void flyOnce(const RigConfig& rig, const FlightPlan& plan, std::uint64_t seed, M
   FlightReducer reducer(rig, !result.arm.calibrator.empty());
   std::optional<TraceRecorder> recorder;
   if (place == 0) recorder.emplace(rig, kLearner);
-  const FlightRun run = runFlight(rig, plan, kSessionS, false, [&](const EngineSnapshot& tick) {
+  const FlightRun run = runFlight(rig, plan, kLimitS, false, [&](const EngineSnapshot& tick) {
     reducer.add(tick);
     if (recorder) recorder->add(tick);
   });
@@ -138,6 +139,8 @@ Spread MatsukawaResult::spread(double MatsukawaFlight::*figure) const {
 std::vector<MatsukawaResult> flyMatsukawa2010(
     const RigConfig& rig, const FlightPlan& plan, const MatsukawaOptions& options,
     const std::function<void(double, const std::string&)>& progress) {
+  FlightPlan session = plan;
+  landWithin(session, kSessionS);
   std::vector<MatsukawaResult> results;
   const auto arms = matsukawaArms();
   for (const MatsukawaArm& arm : arms) {
@@ -149,7 +152,7 @@ std::vector<MatsukawaResult> flyMatsukawa2010(
         options.runs,
         [&](int run) {
           const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(run);
-          flyOnce(configured(rig, arm, seed, options.images), plan, seed, result,
+          flyOnce(configured(rig, arm, seed, options.images), session, seed, result,
                   static_cast<std::size_t>(run));
         },
         [&](int done) {

@@ -17,86 +17,6 @@ double alikePx2(const LabellingSearchOptions& options) {
   return options.alike_chi2 * options.resection.sigma_px * options.resection.sigma_px;
 }
 
-/// Resects the camera under one labelling after the other.
-class LabellingResector {
- public:
-  LabellingResector(const CameraModel& camera, const MarkerLayout& markers,
-                    std::span<const LabellingFrame> frames, const RigidTransform& prior,
-                    const LabellingSearchOptions& options)
-      : camera_(camera), markers_(markers), frames_(frames), prior_(prior), options_(options) {}
-
-  ScoredLabelling score(const Labelling& labelling) {
-    placePoints(labelling);
-    solutions_.clear();
-    addSolution(prior_);
-    if (options_.planar_starts && markers_.count() >= 4) addPlanarStarts(labelling);
-    return nearestOfTheBest(labelling);
-  }
-
- private:
-  void placePoints(const Labelling& labelling) {
-    points_.clear();
-    for (const auto& frame : frames_)
-      for (std::size_t k = 0; k < static_cast<std::size_t>(labelling.count); ++k)
-        points_.push_back(
-            {frame.world_from_body * markers_.inBody(MarkerId{labelling.marker[k]}), frame.pixels[k]});
-  }
-
-  void addPlanarStarts(const Labelling& labelling) {
-    const auto n = static_cast<std::size_t>(labelling.count);
-    std::array<Eigen::Vector3d, kMaxMarkers> in_body;
-    for (std::size_t k = 0; k < n; ++k) in_body[k] = markers_.inBody(MarkerId{labelling.marker[k]});
-    const LabellingFrame& frame = frames_.front();
-    const PlanarPoses planar = solvePlanarPnp(camera_, {in_body.data(), n}, {frame.pixels.data(), n});
-    for (std::size_t i = 0; i < static_cast<std::size_t>(planar.count); ++i)
-      addSolution(planar.poses[i].camera_from_body * frame.world_from_body.inverse());
-  }
-
-  void addSolution(const RigidTransform& start) {
-    const Resection resection = resectCamera(camera_, points_, start, options_.resection);
-    if (resection.status == ResectionStatus::kDiverged || resection.status == ResectionStatus::kDegenerate)
-      return;
-    solutions_.push_back({{}, resection, geodesic(resection), literal(resection)});
-  }
-
-  /// A plane seen once has two poses that explain it almost alike: of those the one nearer to the guess.
-  ScoredLabelling nearestOfTheBest(const Labelling& labelling) const {
-    ScoredLabelling chosen;
-    if (!solutions_.empty()) {
-      double least = solutions_.front().resection.cost_px2;
-      for (const auto& solution : solutions_) least = std::min(least, solution.resection.cost_px2);
-      const double alike = least + alikePx2(options_);
-      chosen.difference_geodesic = INFINITY;
-      for (const auto& solution : solutions_)
-        if (solution.resection.cost_px2 <= alike && solution.difference_geodesic < chosen.difference_geodesic)
-          chosen = solution;
-    }
-    chosen.labelling = labelling;
-    return chosen;
-  }
-
-  double geodesic(const Resection& resection) const {
-    const RigidTransform& found = resection.camera_from_world;
-    const double angle = logSO3(found.rotation * prior_.rotation.conjugate()).norm();
-    return (found.inverseTranslation() - prior_.inverseTranslation()).norm() +
-           options_.metres_per_radian * angle;
-  }
-
-  double literal(const Resection& resection) const {
-    const RigidTransform& found = resection.camera_from_world;
-    return (found.translation - prior_.translation).norm() +
-           (logSO3(found.rotation) - logSO3(prior_.rotation)).norm();
-  }
-
-  const CameraModel& camera_;
-  const MarkerLayout& markers_;
-  std::span<const LabellingFrame> frames_;
-  const RigidTransform& prior_;
-  const LabellingSearchOptions& options_;
-  std::vector<WorldPoint> points_;
-  std::vector<ScoredLabelling> solutions_;
-};
-
 /// Layers of the first frame that has the layout's; of the first frame if none has.
 ConvexLayers imageLayers(const ConvexLayers& layout, std::span<const LabellingFrame> frames) {
   const auto n = static_cast<std::size_t>(layout.points);
@@ -166,22 +86,124 @@ const ScoredLabelling* LabellingSearch::best(LabellingCriterion criterion) const
   return chosen;
 }
 
+LabellingScorer::LabellingScorer(const CameraModel& camera, const MarkerLayout& markers,
+                                 const LabellingSearchOptions& options)
+    : camera_(camera), markers_(markers), options_(options) {
+  points_.reserve(static_cast<std::size_t>(markers.count()));
+  solutions_.reserve(3);
+}
+
+void LabellingScorer::start(std::span<const LabellingFrame> frames, const RigidTransform& prior) {
+  frames_ = frames;
+  prior_ = prior;
+}
+
+ScoredLabelling LabellingScorer::score(const Labelling& labelling) {
+  placePoints(labelling);
+  solutions_.clear();
+  addSolution(prior_);
+  if (options_.planar_starts && markers_.count() >= 4) addPlanarStarts(labelling);
+  return nearestOfTheBest(labelling);
+}
+
+void LabellingScorer::placePoints(const Labelling& labelling) {
+  points_.clear();
+  for (const auto& frame : frames_)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(labelling.count); ++k)
+      points_.push_back(
+          {frame.world_from_body * markers_.inBody(MarkerId{labelling.marker[k]}), frame.pixels[k]});
+}
+
+void LabellingScorer::addPlanarStarts(const Labelling& labelling) {
+  const auto n = static_cast<std::size_t>(labelling.count);
+  std::array<Eigen::Vector3d, kMaxMarkers> in_body;
+  for (std::size_t k = 0; k < n; ++k) in_body[k] = markers_.inBody(MarkerId{labelling.marker[k]});
+  const LabellingFrame& frame = frames_.front();
+  const PlanarPoses planar = solvePlanarPnp(camera_, {in_body.data(), n}, {frame.pixels.data(), n});
+  for (std::size_t i = 0; i < static_cast<std::size_t>(planar.count); ++i)
+    addSolution(planar.poses[i].camera_from_body * frame.world_from_body.inverse());
+}
+
+void LabellingScorer::addSolution(const RigidTransform& start) {
+  const Resection resection = resectCamera(camera_, points_, start, options_.resection);
+  if (resection.status == ResectionStatus::kDiverged || resection.status == ResectionStatus::kDegenerate)
+    return;
+  solutions_.push_back({{}, resection, geodesic(resection), literal(resection)});
+}
+
+/// A plane seen once has two poses that explain it almost alike: of those the one nearer to the guess.
+ScoredLabelling LabellingScorer::nearestOfTheBest(const Labelling& labelling) const {
+  ScoredLabelling chosen;
+  if (!solutions_.empty()) {
+    double least = solutions_.front().resection.cost_px2;
+    for (const auto& solution : solutions_) least = std::min(least, solution.resection.cost_px2);
+    const double alike = least + alikePx2(options_);
+    chosen.difference_geodesic = INFINITY;
+    for (const auto& solution : solutions_)
+      if (solution.resection.cost_px2 <= alike && solution.difference_geodesic < chosen.difference_geodesic)
+        chosen = solution;
+  }
+  chosen.labelling = labelling;
+  return chosen;
+}
+
+double LabellingScorer::geodesic(const Resection& resection) const {
+  const RigidTransform& found = resection.camera_from_world;
+  const double angle = logSO3(found.rotation * prior_.rotation.conjugate()).norm();
+  return (found.inverseTranslation() - prior_.inverseTranslation()).norm() +
+         options_.metres_per_radian * angle;
+}
+
+double LabellingScorer::literal(const Resection& resection) const {
+  const RigidTransform& found = resection.camera_from_world;
+  return (found.translation - prior_.translation).norm() +
+         (logSO3(found.rotation) - logSO3(prior_.rotation)).norm();
+}
+
+LabellingWalk::LabellingWalk(const CameraModel& camera, const MarkerLayout& markers,
+                             const LabellingSearchOptions& options)
+    : options_(options),
+      layout_(layersOf(markers)),
+      scorer_(camera, markers, options),
+      found_(alikePx2(options)) {
+  const double sides = options.side == ViewSide::kEither ? 2.0 : 1.0;
+  found_.reserve(static_cast<std::size_t>(std::ceil(sides * theoremOneBound(markers.count()))));
+}
+
+void LabellingWalk::start(const LabellingFrame& frame, const RigidTransform& prior) {
+  frame_ = frame;
+  scorer_.start({&frame_, 1}, prior);
+  found_.clear();
+  labellings_.emplace(layout_, imageLayers(layout_, {&frame_, 1}), options_.side);
+}
+
+void LabellingWalk::advance(int count) {
+  Labelling labelling;
+  for (; running() && count > 0; --count) {
+    if (labellings_->next(labelling))
+      found_.add(scorer_.score(labelling));
+    else
+      stop();
+  }
+}
+
 LabellingSearch searchLabellings(const CameraModel& camera, const MarkerLayout& markers,
                                  std::span<const LabellingFrame> frames, const RigidTransform& prior,
                                  const LabellingSearchOptions& options) {
   HELICAL_CHECK(!frames.empty());
-  LabellingResector resector(camera, markers, frames, prior, options);
-  std::vector<ScoredLabelling> scored;
+  LabellingScorer scorer(camera, markers, options);
+  scorer.start(frames, prior);
+  LabellingSearch search(alikePx2(options));
   if (options.scope == LabellingScope::kEveryPermutation) {
     forEachPermutation(markers.count(),
-                       [&](const Labelling& labelling) { scored.push_back(resector.score(labelling)); });
-    return {std::move(scored), alikePx2(options)};
+                       [&](const Labelling& labelling) { search.add(scorer.score(labelling)); });
+    return search;
   }
   const ConvexLayers layout = layersOf(markers);
   NestedLabellings labellings(layout, imageLayers(layout, frames), options.side);
   Labelling labelling;
-  while (labellings.next(labelling)) scored.push_back(resector.score(labelling));
-  return {std::move(scored), alikePx2(options)};
+  while (labellings.next(labelling)) search.add(scorer.score(labelling));
+  return search;
 }
 
 }  // namespace helical

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "engine/correspondence/nested_polygons.h"
@@ -57,10 +57,12 @@ struct ScoredLabelling {
 /// Outcome of a search. Without any labelling the layers of image and layout differ in shape.
 class LabellingSearch {
  public:
-  LabellingSearch() = default;
   /// `alike_px2`: by how much the sum of squared residuals may exceed the best one's.
-  LabellingSearch(std::vector<ScoredLabelling> labellings, double alike_px2)
-      : labellings_(std::move(labellings)), alike_px2_(alike_px2) {}
+  explicit LabellingSearch(double alike_px2 = 0.0) : alike_px2_(alike_px2) {}
+
+  void reserve(std::size_t count) { labellings_.reserve(count); }
+  void clear() { labellings_.clear(); }
+  void add(const ScoredLabelling& scored) { labellings_.push_back(scored); }
 
   const std::vector<ScoredLabelling>& labellings() const { return labellings_; }
 
@@ -69,7 +71,60 @@ class LabellingSearch {
 
  private:
   std::vector<ScoredLabelling> labellings_;
-  double alike_px2_ = 0.0;
+  double alike_px2_;
+};
+
+/// Scores one labelling after the other. Allocates at construction only. One thread.
+class LabellingScorer {
+ public:
+  LabellingScorer(const CameraModel& camera, const MarkerLayout& markers,
+                  const LabellingSearchOptions& options);
+
+  /// `frames` stay valid while labellings are scored.
+  void start(std::span<const LabellingFrame> frames, const RigidTransform& prior);
+  ScoredLabelling score(const Labelling& labelling);
+
+ private:
+  void placePoints(const Labelling& labelling);
+  void addPlanarStarts(const Labelling& labelling);
+  void addSolution(const RigidTransform& start);
+  ScoredLabelling nearestOfTheBest(const Labelling& labelling) const;
+  double geodesic(const Resection& resection) const;
+  double literal(const Resection& resection) const;
+
+  CameraModel camera_;
+  MarkerLayout markers_;
+  LabellingSearchOptions options_;
+  std::span<const LabellingFrame> frames_;
+  RigidTransform prior_;
+  std::vector<WorldPoint> points_;
+  std::vector<ScoredLabelling> solutions_;
+};
+
+/// The search over nested polygons of one frame a few labellings at a time, for a camera whose images must
+/// not wait for it. Allocates at construction only. One thread.
+class LabellingWalk {
+ public:
+  LabellingWalk(const CameraModel& camera, const MarkerLayout& markers,
+                const LabellingSearchOptions& options = {});
+
+  void start(const LabellingFrame& frame, const RigidTransform& prior);
+  void stop() { labellings_.reset(); }
+  bool running() const { return labellings_.has_value(); }
+
+  /// Scores at most `count` labellings.
+  void advance(int count);
+
+  /// Of a walk that is done.
+  const LabellingSearch& found() const { return found_; }
+
+ private:
+  LabellingSearchOptions options_;
+  ConvexLayers layout_;
+  LabellingScorer scorer_;
+  LabellingFrame frame_;
+  std::optional<NestedLabellings> labellings_;
+  LabellingSearch found_;
 };
 
 /// The paper's III.B, steps 5 to 8: for every labelling the camera's pose by resection over all frames, and

@@ -11,33 +11,49 @@ constexpr double kLastingPosition = 2e-3;     // m
 constexpr double kDoubtLasts =
     1.0;  // s of residuals over the limit, after which the labelling itself was wrong
 
+// Labellings that are tried with one image have so many balls together, that the image does not come late. A
+// count, not a time, so that a flight repeats.
+constexpr int kBallsPerStep = 16;
+
 }  // namespace
 
 CameraCalibration::CameraCalibration(std::string_view method, const CameraModel& camera,
                                      const MarkerLayout& markers, const RigidTransform& guess,
-                                     std::uint64_t seed)
+                                     std::uint64_t seed, const CalibratorOptions& options)
     : camera_(camera),
       markers_(markers),
       guess_(guess),
-      calibrator_(makeCalibrator(method, {}, camera, markers, seed)),
-      labels_({}, markers.count()) {
+      calibrator_(makeCalibrator(method, options, camera, markers, seed)),
+      tracks_({}, markers.count()),
+      search_(camera, markers) {
   calibrator_->restart(guess_);
 }
 
-void CameraCalibration::seekLabels(const Observation& observation, const TrackedState& helicopter) {
+void CameraCalibration::startSeeking(const Observation& observation, const TrackedState& helicopter) {
+  named_ = false;
+  search_.stop();
   if (observation.count != markers_.count()) return;
   LabellingFrame frame;
   frame.world_from_body = helicopter.state.world_from_body;
-  for (int c = 0; c < observation.count; ++c)
-    frame.pixels[static_cast<std::size_t>(c)] = observation.centroids[static_cast<std::size_t>(c)].pixel;
-  const LabellingSearch search = searchLabellings(camera_, markers_, {&frame, 1}, guess_);
-  const ScoredLabelling* best = search.best(LabellingCriterion::kNearestPlausible);
-  if (best == nullptr) return;
-  Names names;
-  names.fill(-1);
+  Names as_they_stand;
+  as_they_stand.fill(-1);
+  for (int c = 0; c < observation.count; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    frame.pixels[i] = observation.centroids[i].pixel;
+    as_they_stand[i] = c;
+  }
+  tracks_.restart(observation, as_they_stand);
+  search_.start(frame, guess_);
+}
+
+void CameraCalibration::seekLabels() {
+  search_.advance(std::max(1, kBallsPerStep / markers_.count()));
+  if (search_.running()) return;
+  const ScoredLabelling* best = search_.found().best(LabellingCriterion::kNearestPlausible);
+  if (best == nullptr) return tracks_.forget();
   for (int c = 0; c < best->labelling.count; ++c)
-    names[best->labelling.marker[static_cast<std::size_t>(c)]] = c;
-  labels_.restart(observation, names);
+    track_of_marker_[best->labelling.marker[static_cast<std::size_t>(c)]] = c;
+  named_ = true;
   calibrator_->restart(guess_);
   admission_ = {};
   doubtful_since_ = -1;
@@ -45,11 +61,14 @@ void CameraCalibration::seekLabels(const Observation& observation, const Tracked
 
 std::span<const LabelledPixel> CameraCalibration::keepLabels(const Observation& observation,
                                                              const TrackedState& helicopter) {
-  if (labels_.lost()) seekLabels(observation, helicopter);
-  const Names names = labels_.follow(observation);
+  if (tracks_.lost()) startSeeking(observation, helicopter);
+  const Names centroid_of_track = tracks_.follow(observation);
+  if (search_.running()) seekLabels();
+  if (!named_) return {};
   std::size_t count = 0;
   for (int m = 0; m < markers_.count(); ++m) {
-    const int name = names[static_cast<std::size_t>(m)];
+    const int track = track_of_marker_[static_cast<std::size_t>(m)];
+    const int name = centroid_of_track[static_cast<std::size_t>(track)];
     if (name < 0) continue;
     const Centroid& centroid = observation.centroids[static_cast<std::size_t>(name)];
     pixels_[count++] = {markerId(m), centroid.pixel, centroid.covariance};
@@ -80,7 +99,7 @@ void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector
     if (calibrator_->namesCentroids())
       calibrator_->restart(guess_);
     else
-      labels_.forget();  // the next frame seeks anew
+      tracks_.forget();  // the next frame seeks anew
     doubtful_since_ = -1;
   }
 }

@@ -16,13 +16,14 @@ namespace helical {
 /// One un-calibrated camera's way into the control set (the paper's section III): its centroids get names by
 /// nested polygons and keep them from frame to frame, unless its calibrator names them for itself; that
 /// learns from every frame that the other cameras see too, and the one admission rule says when it may be
-/// flown on. A labelling that does not explain the frames is given up and sought again. One thread; allocates
-/// only while it seeks a labelling.
+/// flown on. A labelling that does not explain the frames is given up and sought again. Centroids are
+/// followed without names while labellings are sought, a few with every image, so that none waits for it. One
+/// thread; allocates at construction only.
 class CameraCalibration {
  public:
   /// `guess`: a first guess of camera_from_world. Throws Error(kInput) for an unknown method.
   CameraCalibration(std::string_view method, const CameraModel& camera, const MarkerLayout& markers,
-                    const RigidTransform& guess, std::uint64_t seed);
+                    const RigidTransform& guess, std::uint64_t seed, const CalibratorOptions& options = {});
 
   /// One frame, and the helicopter at its exposure as the other cameras have it.
   void step(const Observation& observation, const TrackedState& helicopter);
@@ -32,7 +33,8 @@ class CameraCalibration {
   const ExtrinsicCalibrator& calibrator() const { return *calibrator_; }
 
  private:
-  void seekLabels(const Observation& observation, const TrackedState& helicopter);
+  void startSeeking(const Observation& observation, const TrackedState& helicopter);
+  void seekLabels();
   /// The method's centroids, named for it.
   std::span<const LabelledPixel> keepLabels(const Observation& observation, const TrackedState& helicopter);
   void judge(const CalibrationFrame& frame, const Eigen::Vector3d& helicopter_in_world);
@@ -41,7 +43,11 @@ class CameraCalibration {
   MarkerLayout markers_;
   RigidTransform guess_;
   std::unique_ptr<ExtrinsicCalibrator> calibrator_;
-  LabelKeeper labels_;  ///< for methods that do not name centroids themselves
+  // For methods that do not name centroids themselves:
+  LabelKeeper tracks_;    ///< centroids, numbered as they stood when the search began
+  LabellingWalk search_;  ///< for the marker that each of them is
+  Names track_of_marker_;
+  bool named_ = false;
   std::array<LabelledPixel, kMaxMarkers> pixels_;
   AdmissionOptions admission_options_;
   AdmissionMemory admission_;

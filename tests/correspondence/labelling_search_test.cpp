@@ -138,6 +138,30 @@ TEST(LabellingSearch, HasNoBestWhereHullsDisagree) {
     EXPECT_EQ(found.best(criterion), nullptr);
 }
 
+TEST(LabellingWalk, FindsInSlicesWhatASearchFindsAtOnce) {
+  Random random(12);
+  for (const int markers : {3, 4, 7, 9}) {
+    const RandomView view = randomView(random, markers, 0.3);
+    const RigidTransform guess = guessOf(view, kAngle, kDistance, random);
+    const LabellingSearch whole = search(view, guess);
+    LabellingWalk walk(viewCamera(), view.layout);
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      walk.start(frameOf(view), guess);
+      int slices = 0;
+      for (; walk.running(); ++slices) walk.advance(2);
+      EXPECT_EQ(slices, static_cast<int>(whole.labellings().size()) / 2 + 1);
+      ASSERT_EQ(walk.found().labellings().size(), whole.labellings().size());
+      for (std::size_t i = 0; i < whole.labellings().size(); ++i) {
+        EXPECT_EQ(walk.found().labellings()[i].labelling, whole.labellings()[i].labelling);
+        EXPECT_EQ(walk.found().labellings()[i].resection.cost_px2, whole.labellings()[i].resection.cost_px2);
+      }
+    }
+    walk.start(frameOf(view), guess);
+    walk.stop();
+    EXPECT_FALSE(walk.running());
+  }
+}
+
 TEST(LabellingSearch, RefusesOptionsOutOfRange) {
   LabellingSearchOptions options;
   EXPECT_NO_THROW(validate(options));

@@ -161,6 +161,7 @@ struct Engine::Implementation {
   void takeCalibrations(TimeNs now);
   void showCalibrations(std::uint64_t tick);
   void addOrders(EngineSnapshot& snapshot) const;
+  void measureRate(EngineSnapshot& snapshot);
   void replaceCalibration(std::size_t camera, const std::string& method);
   void announce(const EngineSnapshot& now);
   void announceCamera(const EngineSnapshot& now, std::size_t camera);
@@ -207,6 +208,9 @@ struct Engine::Implementation {
 
   FlightPhase last_phase = FlightPhase::kIdle;
   SafetyState last_safety = SafetyState::kNormal;
+  TimeNs rate_since = 0;
+  std::uint64_t ticks_then = 0;
+  double ticks_per_second = 0.0;
   bool had_pose = false;
   bool announced_give_up = false;
   bool gust_blew = false;
@@ -258,6 +262,7 @@ void Engine::Implementation::tick(TimeNs now) {
   snapshot = loop.snapshot();
   hardware.addTruth(snapshot, now);
   addOrders(snapshot);
+  measureRate(snapshot);
   showCalibrations(snapshot.tick);
   if (!tick_queue->push(snapshot)) lost.fetch_add(1, std::memory_order_relaxed);
   announce(snapshot);
@@ -342,6 +347,17 @@ void Engine::Implementation::addOrders(EngineSnapshot& snapshot) const {
     if (calibration != nullptr)
       snapshot.cameras[i].effective_sample_size = calibration->calibrator().effectiveSampleSize();
   }
+}
+
+/// What the flight thread really does; the loop itself only knows what it should.
+void Engine::Implementation::measureRate(EngineSnapshot& snapshot) {
+  if (snapshot.time - rate_since >= kNanosecondsPerSecond) {
+    ticks_per_second =
+        static_cast<double>(snapshot.tick - ticks_then) / toSeconds(snapshot.time - rate_since);
+    rate_since = snapshot.time;
+    ticks_then = snapshot.tick;
+  }
+  if (ticks_per_second > 0.0) snapshot.ticks_per_second = ticks_per_second;
 }
 
 void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {

@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <string>
 #include <thread>
 
+#include "engine/base/error.h"
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
+#include "engine/pipeline/first_guess.h"
 #include "tests/pipeline/flight_fixture.h"
 
 namespace helical {
@@ -91,6 +94,75 @@ TEST(Engine, PicturesComeWithWhatWasFoundInThem) {
   const CameraPicture& picture = engine.picture(cameraId(0));
   EXPECT_EQ(picture.width, 640);
   EXPECT_EQ(picture.bgr.size(), 640u * 480u * 3u);
+}
+
+TEST(Engine, TheMethodChangesInFlightAndItsParticlesAreSeen) {
+  RigConfig rig = test::shippedRig("paper", 4);
+  giveFirstGuesses(rig, 0.26, 0.4, 4, false);
+  Engine engine(rig, loadPlan(planPath("hover")));
+  engine.start();
+  const auto method_is = [](const EngineSnapshot& now, const std::string& name) {
+    return now.cameras[2].calibration_method != nullptr && name == now.cameras[2].calibration_method;
+  };
+  ASSERT_TRUE(waitUntil(engine, [&](const EngineSnapshot& now) {
+    return now.cameras[2].estimate.status == CameraStatus::kCalibrated && method_is(now, "particle-filter");
+  }));
+  ASSERT_TRUE(waitUntil(engine, [&](const EngineSnapshot& now) {
+    return engine.pollCalibration(cameraId(2)) && engine.calibration(cameraId(2)).count > 100 &&
+           now.cameras[2].effective_sample_size > 1.0;
+  }));
+  const CalibrationView& view = engine.calibration(cameraId(2));
+  EXPECT_GE(view.total, view.count);
+  const RigidTransform truth = engine.snapshot().cameras[2].true_camera_from_world;
+  float heaviest = 0.0F;
+  for (int i = 0; i < view.count; ++i) {
+    const auto& particle = view.particles[static_cast<std::size_t>(i)];
+    EXPECT_LT((particle.centre_in_world.cast<double>() - truth.inverseTranslation()).norm(), 0.2);
+    heaviest = std::max(heaviest, particle.weight);
+  }
+  EXPECT_EQ(heaviest, 1.0F);
+
+  engine.setCalibrator("gauss-newton");
+  EXPECT_EQ(engine.calibrator(), "gauss-newton");
+  ASSERT_TRUE(waitUntil(engine, [&](const EngineSnapshot& now) { return method_is(now, "gauss-newton"); }));
+  EXPECT_TRUE(hasEvent(engine, "Camera 3: calibrates anew by gauss-newton"));
+  ASSERT_TRUE(waitUntil(engine, [&](const EngineSnapshot&) {
+    return engine.pollCalibration(cameraId(2)) && engine.calibration(cameraId(2)).total == 0;
+  })) << "this method has no particles";
+  EXPECT_THROW(engine.setCalibrator("crystal-ball"), Error);
+  EXPECT_EQ(engine.calibrator(), "gauss-newton");
+  // Faster than the flight thread can take them: the last one counts.
+  for (int i = 0; i < 20; ++i) engine.setCalibrator("growing-gauss-newton");
+  engine.setCalibrator("particle-filter");
+  ASSERT_TRUE(
+      waitUntil(engine, [&](const EngineSnapshot& now) { return method_is(now, "particle-filter"); }));
+  EXPECT_TRUE(engine.snapshot().pose_known);
+}
+
+TEST(Engine, ABoardCoversACameraAndAKnockMovesIt) {
+  Engine engine(test::shippedRig("paper", 4), loadPlan(planPath("hover")));
+  engine.start();
+  ASSERT_TRUE(waitUntil(
+      engine, [](const auto& now) { return now.cameras[1].track.selected_count == now.marker_count; }));
+  WhiteBoards boards;
+  boards.count = 1;
+  boards.boards[0].count = 4;
+  boards.boards[0].corners = {Eigen::Vector2d{-10, -10}, {700, -10}, {700, 500}, {-10, 500}};
+  engine.setBoards(cameraId(1), boards);
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) {
+    return now.cameras[1].boards == 1 && now.cameras[1].centroids == 0 && now.cameras[0].centroids > 0;
+  }));
+  EXPECT_TRUE(hasEvent(engine, "Camera 2: a white board is held before it"));
+  engine.setBoards(cameraId(1), {});
+  ASSERT_TRUE(
+      waitUntil(engine, [](const auto& now) { return now.cameras[1].centroids == now.marker_count; }));
+
+  const RigidTransform before = engine.snapshot().cameras[0].true_camera_from_world;
+  engine.knockCamera(cameraId(0), 0.1, 0.05);
+  ASSERT_TRUE(waitUntil(engine, [&](const auto& now) {
+    return !now.cameras[0].true_camera_from_world.rotation.isApprox(before.rotation, 1e-3);
+  }));
+  EXPECT_TRUE(hasEvent(engine, "Camera 1: knocked by the operator"));
 }
 
 TEST(Engine, StopsWithoutEverHavingStarted) {

@@ -45,6 +45,11 @@ json calibrationJson(const FlightRun& run, std::size_t index) {
   fields["position_sigma_m"] = std::sqrt(camera.estimate.covariance.diagonal().tail<3>().sum());
   fields["orientation_sigma_deg"] =
       toDegrees(std::sqrt(camera.estimate.covariance.diagonal().head<3>().sum()));
+  if (camera.calibration_bound) {
+    fields["crlb_position_m"] = camera.calibration_bound->position_m;
+    fields["crlb_orientation_deg"] = toDegrees(camera.calibration_bound->orientation_rad);
+  }
+  fields["nees"] = calibrationNees(camera.estimate, run.true_cameras[index]);
   return fields;
 }
 
@@ -141,8 +146,8 @@ std::string flightText(const FlightRun& run, const RigConfig& rig) {
     text += "\n";
     if (camera.calibration_method != nullptr) {
       const CameraError error = cameraError(camera.estimate.camera_from_world, run.true_cameras[i]);
-      text += line("             by %s: %.1f mm and %.2f deg from its true place\n", camera.calibration_method,
-                   1e3 * error.position, toDegrees(error.orientation));
+      text += line("             by %s: %.1f mm and %.2f deg from its true place\n",
+                   camera.calibration_method, 1e3 * error.position, toDegrees(error.orientation));
     }
   }
   text +=

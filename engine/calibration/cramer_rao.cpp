@@ -33,7 +33,7 @@ Matrix6d poseInformation(const CameraModel& camera, const RigidTransform& camera
 void CramerRaoBound::add(const CameraModel& camera, const RigidTransform& camera_from_world,
                          const MarkerLayout& markers, std::span<const MarkerId> seen,
                          const RigidTransform& world_from_body, const Matrix6d& pose_information,
-                         double sigma_px) {
+                         double sigma_px, double frames) {
   const double weight = 1.0 / (sigma_px * sigma_px);
   Matrix6d camera_camera = Matrix6d::Zero(), pose_camera = Matrix6d::Zero(), pose_pose = pose_information;
   for (const MarkerId marker : seen) {
@@ -46,8 +46,8 @@ void CramerRaoBound::add(const CameraModel& camera, const RigidTransform& camera
   // A pose that this frame leaves open takes all that its balls could say about the camera.
   const Eigen::LDLT<Matrix6d> factor(pose_pose);
   if (!determined(factor)) return;
-  information_ += camera_camera;
-  information_.noalias() -= pose_camera.transpose() * factor.solve(pose_camera);
+  information_ += frames * camera_camera;
+  information_.noalias() -= frames * pose_camera.transpose() * factor.solve(pose_camera);
 }
 
 std::optional<CalibrationBound> CramerRaoBound::bound() const {

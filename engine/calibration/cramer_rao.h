@@ -29,11 +29,11 @@ struct CalibrationBound {
 /// given: the true ones in simulation, the estimated ones live. Allocates nothing.
 class CramerRaoBound {
  public:
-  /// One frame: the balls that the camera saw with `sigma_px` per axis, and what is known of the helicopter's
-  /// pose from elsewhere.
+  /// One frame, or `frames` alike: the balls that the camera saw with `sigma_px` per axis, and what is known
+  /// of the helicopter's pose from elsewhere.
   void add(const CameraModel& camera, const RigidTransform& camera_from_world, const MarkerLayout& markers,
            std::span<const MarkerId> seen, const RigidTransform& world_from_body,
-           const Matrix6d& pose_information, double sigma_px);
+           const Matrix6d& pose_information, double sigma_px, double frames = 1.0);
 
   const Matrix6d& information() const { return information_; }
 

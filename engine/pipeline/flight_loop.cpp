@@ -1,5 +1,10 @@
 #include "engine/pipeline/flight_loop.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <algorithm>
+
 #include "engine/base/clock.h"
 
 namespace helical {
@@ -43,6 +48,11 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
           std::make_unique<CameraCalibration>(rig.calibrator, camera.model, rig.markers_in_body,
                                               *camera.camera_from_world, rig.simulation.seed + i);
   }
+  const bool anybody = std::any_of(calibrations_.begin(), calibrations_.end(),
+                                   [](const auto& calibration) { return calibration != nullptr; });
+  if (anybody && !rig.learn_from_own_pose)
+    teacher_ = makeTracker(rig.tracker, rig.tracking, rig.markers_in_body, models(rig),
+                           rig.helicopter.standing_height);
 }
 
 void FlightLoop::hideCamera(CameraId camera, bool hidden) {
@@ -54,6 +64,7 @@ void FlightLoop::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   if (!calibrations_[index] || !calibration) return;
   calibrations_[index].swap(calibration);
   estimates_[index] = calibrations_[index]->estimate();
+  bounds_[index].restart();
 }
 
 const CameraCalibration* FlightLoop::calibration(CameraId camera) const {
@@ -70,6 +81,8 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   if (now - observation.exposure > kLatest) return;
   const TimeNs last_update = tracker_->lastUpdate();
   tracker_->update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
+  if (teacher_ && !calibrations_[index])
+    teacher_->update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
   if (tracker_->lastUpdate() != last_update) pose_time_ = now;
   calibrate(observation);
   snapshot_.cameras[index].track = tracker_->track(observation.camera);
@@ -78,18 +91,20 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
 
 void FlightLoop::calibrate(const Observation& observation) {
   const auto index = static_cast<std::size_t>(observation.camera.index());
-  if (!calibrations_[index] || snapshot_.cameras[index].hidden || !tracker_->acquired()) return;
-  // The pose must come from others, two at least: a camera that teaches itself confirms its own error.
+  const Tracker& teacher = teacher_ ? *teacher_ : *tracker_;
+  if (!calibrations_[index] || snapshot_.cameras[index].hidden || !teacher.acquired()) return;
+  // The pose must come from cameras whose own pose was given, two at least. A camera that teaches itself
+  // confirms its own error, and two that were taught in flight would confirm each other's.
   int teachers = 0;
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    const CameraTrack& track = tracker_->track(cameraId(static_cast<int>(i)));
-    if (i != index && usable_[i] && track.selected_count >= 2 &&
+    const CameraTrack& track = teacher.track(cameraId(static_cast<int>(i)));
+    if (usable_[i] && !calibrations_[i] && track.selected_count >= 2 &&
         observation.exposure - track.exposure < kTeaching)
       ++teachers;
   }
   if (teachers < 2 && !rig_.learn_from_own_pose) return;
-  if (observation.exposure - tracker_->lastUpdate() > kTeaching) return;
-  calibrations_[index]->step(observation, tracker_->predict(observation.exposure, airborne_));
+  if (observation.exposure - teacher.lastUpdate() > kTeaching) return;
+  calibrations_[index]->step(observation, teacher.predict(observation.exposure, airborne_));
   estimates_[index] = calibrations_[index]->estimate();
 }
 

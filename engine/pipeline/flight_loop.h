@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/base/latency_histogram.h"
+#include "engine/calibration/live_bound.h"
 #include "engine/config/rig_config.h"
 #include "engine/flight/autopilot.h"
 #include "engine/pipeline/camera_calibration.h"
@@ -45,17 +46,20 @@ class FlightLoop {
     TimeNs unused_arrival = -1;  ///< of the newest frame that no command has used yet
   };
   void calibrate(const Observation& observation);
+  void addToBound(const Observation& observation, const RigidTransform& world_from_body);
   void count(const Observation& observation, TimeNs now);
   void measureRates(TimeNs now);
   void fillSnapshot(TimeNs now, const AutopilotOutput& output);
 
   RigConfig rig_;
   std::unique_ptr<Tracker> tracker_;
+  std::unique_ptr<Tracker> teacher_;  ///< sees with given poses alone; null when nobody learns from it
   Autopilot autopilot_;
   EngineSnapshot snapshot_;
   std::array<CameraEstimate, kMaxCameras> estimates_;
   std::array<std::unique_ptr<CameraCalibration>, kMaxCameras>
       calibrations_;  ///< of cameras with a first guess
+  std::array<LiveBound, kMaxCameras> bounds_;
   std::array<bool, kMaxCameras> usable_{};
   std::array<CameraCounters, kMaxCameras> counters_;
   std::array<LatencyHistogram, kMaxCameras> extraction_time_;

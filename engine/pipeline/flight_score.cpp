@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -91,6 +92,11 @@ double FlightScore::selectedShare(CameraId camera) const {
 CameraError cameraError(const RigidTransform& estimated, const RigidTransform& truth) {
   return {(estimated.inverseTranslation() - truth.inverseTranslation()).norm(),
           estimated.rotation.angularDistance(truth.rotation)};
+}
+
+double calibrationNees(const CameraEstimate& estimate, const RigidTransform& true_camera_from_world) {
+  const Vector6d error = cameraPerturbation(estimate.camera_from_world, true_camera_from_world);
+  return error.dot(estimate.covariance.ldlt().solve(error));
 }
 
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes) {

@@ -87,6 +87,9 @@ struct CameraError {
 CameraError cameraError(const RigidTransform& estimated_camera_from_world,
                         const RigidTransform& true_camera_from_world);
 
+/// Normalised error squared of a camera's estimate: 6 on average where the covariance is true.
+double calibrationNees(const CameraEstimate& estimate, const RigidTransform& true_camera_from_world);
+
 /// "landed", "crashed", "failsafe-landed" or "aborted", as `helical fly` reports it.
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes);
 

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/time.h"
+#include "engine/calibration/cramer_rao.h"
 #include "engine/cameras/frame.h"
 #include "engine/flight/flight_state.h"
 #include "engine/geometry/camera_estimate.h"
@@ -21,11 +23,12 @@ struct CameraSnapshot {
   double effective_sample_size = 0.0;        ///< of its hypotheses; 0 for methods without
   bool has_truth = false;                    ///< simulated cameras only
   RigidTransform true_camera_from_world;     ///< at `EngineSnapshot::time`
-  bool hidden = false;                       ///< by the operator: its observations are thrown away
-  int boards = 0;                            ///< before it, put there by the operator
-  std::uint32_t knocks = 0;                  ///< by the operator, so far
-  std::uint64_t frames = 0;                  ///< received
-  std::uint64_t dropped = 0;                 ///< missing in the sequence
+  std::optional<CalibrationBound> calibration_bound;  ///< no estimate can be better; see LiveBound
+  bool hidden = false;                                ///< by the operator: its observations are thrown away
+  int boards = 0;                                     ///< before it, put there by the operator
+  std::uint32_t knocks = 0;                           ///< by the operator, so far
+  std::uint64_t frames = 0;                           ///< received
+  std::uint64_t dropped = 0;                          ///< missing in the sequence
   double frames_per_second = 0.0;
   TimeNs latency = 0;         ///< mid-exposure to its use on the flight thread, newest frame
   int centroids = 0;          ///< regions found in the newest frame

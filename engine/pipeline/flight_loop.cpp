@@ -104,8 +104,34 @@ void FlightLoop::calibrate(const Observation& observation) {
   }
   if (teachers < 2 && !rig_.learn_from_own_pose) return;
   if (observation.exposure - teacher.lastUpdate() > kTeaching) return;
-  calibrations_[index]->step(observation, teacher.predict(observation.exposure, airborne_));
+  const TrackedState helicopter = teacher.predict(observation.exposure, airborne_);
+  calibrations_[index]->step(observation, helicopter);
   estimates_[index] = calibrations_[index]->estimate();
+  addToBound(observation, helicopter.state.world_from_body);
+}
+
+void FlightLoop::addToBound(const Observation& observation, const RigidTransform& world_from_body) {
+  if (observation.count == 0) return;
+  const auto index = static_cast<std::size_t>(observation.camera.index());
+  BoundFrame frame;
+  frame.world_from_body = world_from_body;
+  frame.sigma_px = std::sqrt(0.5 * observation.centroids[0].covariance.trace());
+  // Before the camera knows the names only the number of its balls is known.
+  frame.balls = std::min(observation.count, rig_.markers_in_body.count());
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    const CameraTrack& track = tracker_->track(cameraId(static_cast<int>(i)));
+    if (i == index || !usable_[i] || observation.exposure - track.exposure >= kTeaching) continue;
+    std::array<MarkerId, kMaxMarkers> seen;
+    std::size_t count = 0;
+    for (int m = 0; m < rig_.markers_in_body.count(); ++m)
+      if (track.markers[static_cast<std::size_t>(m)].selected) seen[count++] = markerId(m);
+    frame.pose_information +=
+        poseInformation(rig_.cameras[i].model, estimates_[i].camera_from_world, rig_.markers_in_body,
+                        {seen.data(), count}, world_from_body, frame.sigma_px);
+  }
+  bounds_[index].add(rig_.cameras[index].model, rig_.markers_in_body,
+                     calibrations_[index]->calibrator().estimate(), frame);
+  snapshot_.cameras[index].calibration_bound = bounds_[index].bound();
 }
 
 void FlightLoop::count(const Observation& observation, TimeNs now) {

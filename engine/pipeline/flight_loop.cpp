@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <algorithm>
-
 #include "engine/base/clock.h"
 
 namespace helical {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <QApplication>
+#include <QStandardPaths>
 #include <cstdio>
 #include <cstring>
 #include <future>
@@ -85,9 +86,10 @@ int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool
 
   WindowOptions options;
   options.auto_take_off = auto_take_off;
+  options.layout_file = QStandardPaths::writableLocation(QStandardPaths::AppConfigLocation) + "/layout.ini";
   MainWindow window(rig, options);
   QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);
-  window.fitToScreen();
+  if (!window.restoreLayout()) window.fitToScreen();
   window.show();
   const std::unique_ptr<Engine> engine = starting.get();
   window.attach(*engine);

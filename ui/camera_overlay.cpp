@@ -1,9 +1,11 @@
 #include "ui/camera_overlay.h"
 
+#include <Eigen/Eigenvalues>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/rotation.h"
 #include "ui/theme.h"
 
 namespace helical {
@@ -53,6 +55,34 @@ void paintCross(QPainter& painter, const QPointF& center) {
   painter.setPen(QPen(QColor(255, 255, 255, 210), 1));
   painter.drawLine(center - QPointF(4, 0), center + QPointF(4, 0));
   painter.drawLine(center - QPointF(0, 4), center + QPointF(0, 4));
+}
+
+/// Three standard deviations, magnified.
+void paintEllipse(QPainter& painter, const QPointF& center, const Eigen::Matrix2d& covariance, double scale,
+                  const QColor& color) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
+  const Eigen::Vector2d radii = 3.0 * scale * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::Vector2d along = axes.eigenvectors().col(0);
+  painter.save();
+  painter.translate(center);
+  painter.rotate(toDegrees(std::atan2(along.y(), along.x())));
+  QColor faint = color;
+  faint.setAlpha(120);
+  painter.setPen(QPen(faint, 1, Qt::DotLine));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawEllipse(QPointF(), radii.x(), radii.y());
+  painter.restore();
+}
+
+/// From what was measured towards what was expected, magnified.
+void paintResidual(QPainter& painter, const QPointF& center, const QPointF& residual, const QColor& color) {
+  const double length = std::hypot(residual.x(), residual.y());
+  if (length < 3.0) return;
+  const QPointF tip = center + residual, along = residual / length, across(-along.y(), along.x());
+  painter.setPen(QPen(color, 1.4));
+  painter.drawLine(center, tip);
+  painter.drawLine(tip, tip - 4.0 * along + 2.5 * across);
+  painter.drawLine(tip, tip - 4.0 * along - 2.5 * across);
 }
 
 QPointF middleOfMarkers(const CameraOverlay& overlay, double scale) {
@@ -107,6 +137,10 @@ void paintOverlay(QPainter& painter, const CameraOverlay& overlay, double scale)
       const QColor color = marker.selected ? theme::kHealthy : theme::kCaution;
       const QPointF center = toScreen(marker.pixel, scale);
       paintRing(painter, center, radius, color);
+      if (centroid) paintEllipse(painter, center, centroid->covariance, scale * overlay.magnification, color);
+      if (marker.predicted)
+        paintResidual(painter, center, overlay.magnification * (toScreen(marker.reprojected, scale) - center),
+                      Qt::white);
       paintLabel(painter, center, radius, direction(middle, center), QString::number(i + 1), color);
     }
     if (marker.predicted) paintCross(painter, toScreen(marker.reprojected, scale));

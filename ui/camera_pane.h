@@ -4,7 +4,9 @@
 
 #include "engine/config/rig_config.h"
 #include "engine/pipeline/snapshot.h"
+#include "engine/pipeline/white_board.h"
 
+class QAction;
 class QToolButton;
 
 namespace helical {
@@ -12,8 +14,9 @@ namespace helical {
 class CameraView;
 class PanelTitle;
 
-/// One camera: title with name, badge, rate and latency, a button that hides the camera from the tracker, the
-/// picture. Shows only what the engine says: the button changes when the engine has obeyed.
+/// One camera: title with name, badge, rate and latency, buttons that draw a white board before it and hide
+/// it from the tracker, the picture. Shows only what the engine says: Hide changes when the engine has
+/// obeyed.
 class CameraPane : public QWidget {
   Q_OBJECT
 
@@ -22,18 +25,31 @@ class CameraPane : public QWidget {
 
   void addTrack(const CameraTrack& track);
   void setPicture(const CameraPicture& picture);
-  /// Texts and badge, for a few times a second. `now` is the engine's.
-  void setState(const CameraSnapshot& state, TimeNs now);
+  /// Texts and badge, for a few times a second.
+  void setState(const CameraSnapshot& state, const EngineSnapshot& now);
 
   bool cameraHidden() const { return hidden_; }
   QToolButton* hideButton() const { return button_; }
+  QToolButton* boardButton() const { return board_button_; }
+  CameraView& view() const { return *view_; }
+  /// What can be done to this camera: boards, and in simulation knocks.
+  const QList<QAction*>& disturbances() const { return disturbances_; }
   const PanelTitle& title() const { return *title_; }
 
  Q_SIGNALS:
   void hideRequested(helical::CameraId camera, bool hidden);
+  void boardsChanged(helical::CameraId camera, const helical::WhiteBoards& boards);
+  void knockRequested(helical::CameraId camera, double angle_deg, double distance_m);
   void firstImagePainted();
 
+ protected:
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  QToolButton* addButton(const QString& text);
+  void buildDisturbances(bool simulated);
+  QString residualText(const CameraSnapshot& state, const EngineSnapshot& now) const;
   void setBadge(const CameraSnapshot& state);
   void setHidden(bool hidden);
 
@@ -41,7 +57,10 @@ class CameraPane : public QWidget {
   QString name_;
   PanelTitle* title_;
   QToolButton* button_;
+  QToolButton* board_button_;
   CameraView* view_;
+  double focal_length_px_;
+  QList<QAction*> disturbances_;
   bool hidden_ = false;
 };
 

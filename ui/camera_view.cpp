@@ -1,6 +1,8 @@
 #include "ui/camera_view.h"
 
+#include <QMouseEvent>
 #include <QPainter>
+#include <algorithm>
 #include <array>
 #include <opencv2/imgproc.hpp>
 
@@ -8,10 +10,16 @@
 #include "ui/theme.h"
 
 namespace helical {
+namespace {
+
+constexpr double kHandle = 8.0;  // screen pixels: radius of a board's cross
+
+}  // namespace
 
 CameraView::CameraView(const QColor& identity, QSize sensor, int marker_count, QWidget* parent)
     : QWidget(parent), identity_(identity), sensor_(sensor), marker_count_(marker_count) {
   setAttribute(Qt::WA_OpaquePaintEvent);
+  setMouseTracking(true);
 }
 
 void CameraView::addTrack(const CameraTrack& track) {
@@ -46,6 +54,67 @@ void CameraView::setHidden(bool hidden) {
   update();
 }
 
+void CameraView::setMagnification(double magnification) {
+  magnification_ = magnification;
+  update();
+}
+
+QPointF CameraView::toWidget(const Eigen::Vector2d& pixel) const {
+  const QRect area = pictureArea();
+  const double scale = static_cast<double>(area.width()) / sensor_.width();
+  return area.topLeft() + QPointF((pixel.x() + 0.5) * scale, (pixel.y() + 0.5) * scale);
+}
+
+Eigen::Vector2d CameraView::toImage(const QPointF& position) const {
+  const QRect area = pictureArea();
+  const double scale = static_cast<double>(area.width()) / sensor_.width();
+  return {(position.x() - area.left()) / scale - 0.5, (position.y() - area.top()) / scale - 0.5};
+}
+
+double CameraView::handleReach() const {
+  return kHandle * sensor_.width() / std::max(1, pictureArea().width());
+}
+
+void CameraView::setBoardTool(BoardEditor::Tool tool) {
+  boards_.setTool(tool);
+  setCursor(tool == BoardEditor::Tool::kNone ? Qt::ArrowCursor : Qt::CrossCursor);
+  Q_EMIT boardToolChanged();
+}
+
+void CameraView::clearBoards() {
+  boards_.clear();
+  tellBoards();
+}
+
+void CameraView::tellBoards() {
+  if (boards_.takeChange()) Q_EMIT boardsChanged(boards_.boards());
+  update();
+}
+
+void CameraView::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !boards_.press(toImage(event->position()), handleReach()))
+    return QWidget::mousePressEvent(event);
+  tellBoards();
+}
+
+void CameraView::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() & Qt::LeftButton) {
+    boards_.move(toImage(event->position()));
+    return tellBoards();
+  }
+  if (boards_.tool() == BoardEditor::Tool::kNone)
+    setCursor(boards_.wouldGrab(toImage(event->position()), handleReach()) ? Qt::OpenHandCursor
+                                                                           : Qt::ArrowCursor);
+}
+
+void CameraView::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  const BoardEditor::Tool before = boards_.tool();
+  boards_.release();
+  tellBoards();
+  if (boards_.tool() != before) setBoardTool(boards_.tool());
+}
+
 void CameraView::setCaptions(const QString& left, const QString& right) {
   if (left == left_caption_ && right == right_caption_) return;
   left_caption_ = left;
@@ -75,9 +144,11 @@ void CameraView::paintEvent(QPaintEvent*) {
   overlay.track = observed_ ? history_.at(observation_.exposure) : history_.newest();
   overlay.observation = observed_ ? &observation_ : nullptr;
   overlay.marker_count = marker_count_;
+  overlay.magnification = magnification_;
   paintOverlay(painter, overlay, static_cast<double>(area.width()) / sensor_.width());
   painter.restore();
 
+  paintBoards(painter);
   if (hidden_) paintHidden(painter, area);
   paintFrame(painter, area);
   paintCaptions(painter, area);
@@ -116,6 +187,33 @@ void CameraView::paintCaptions(QPainter& painter, const QRectF& area) const {
   const int right_width = metrics.horizontalAdvance(right_caption_);
   const bool room = metrics.horizontalAdvance(left_caption_) + 12 + right_width <= line.width();
   if (!right_caption_.isEmpty() && room) paint(right_caption_, line.right() - right_width);
+}
+
+void CameraView::paintBoard(QPainter& painter, const WhiteBoard& board, bool draft) const {
+  QPolygonF outline;
+  for (int i = 0; i < board.count; ++i) outline << toWidget(board.corners[static_cast<std::size_t>(i)]);
+  // The frames show the board themselves; without images nothing else would.
+  const bool fill = draft || image_.isNull();
+  painter.setBrush(fill ? QColor(235, 235, 235, draft ? 90 : 170) : QColor(Qt::transparent));
+  painter.setPen(QPen(theme::kCaution, 1.4, draft ? Qt::DashLine : Qt::SolidLine));
+  painter.drawPolygon(outline);
+  if (draft) return;
+  const QPointF center = toWidget(BoardEditor::handle(board));
+  painter.setPen(QPen(QColor(8, 12, 16), 1));
+  painter.setBrush(theme::kCaution);
+  painter.drawEllipse(center, kHandle - 1.0, kHandle - 1.0);
+  painter.setPen(QPen(QColor(8, 12, 16), 1.6));
+  const double arm = 3.0;
+  painter.drawLine(center + QPointF(-arm, -arm), center + QPointF(arm, arm));
+  painter.drawLine(center + QPointF(-arm, arm), center + QPointF(arm, -arm));
+}
+
+void CameraView::paintBoards(QPainter& painter) const {
+  const WhiteBoards& boards = boards_.boards();
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (int i = 0; i < boards.count; ++i)
+    paintBoard(painter, boards.boards[static_cast<std::size_t>(i)], false);
+  if (boards_.draft().count >= 2) paintBoard(painter, boards_.draft(), true);
 }
 
 void CameraView::paintHidden(QPainter& painter, const QRectF& area) const {

@@ -18,6 +18,8 @@ CameraWall::CameraWall(const RigConfig& rig, QWidget* parent) : QWidget(parent) 
     auto* pane =
         new CameraPane(cameraId(static_cast<int>(i)), rig.cameras[i], rig.markers_in_body.count(), this);
     connect(pane, &CameraPane::hideRequested, this, &CameraWall::hideRequested);
+    connect(pane, &CameraPane::boardsChanged, this, &CameraWall::boardsChanged);
+    connect(pane, &CameraPane::knockRequested, this, &CameraWall::knockRequested);
     connect(pane, &CameraPane::firstImagePainted, this, &CameraWall::firstImagePainted);
     panes_.push_back(pane);
   }

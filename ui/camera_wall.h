@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/config/rig_config.h"
+#include "engine/pipeline/white_board.h"
 
 namespace helical {
 
@@ -24,6 +25,8 @@ class CameraWall : public QWidget {
 
  Q_SIGNALS:
   void hideRequested(helical::CameraId camera, bool hidden);
+  void boardsChanged(helical::CameraId camera, const helical::WhiteBoards& boards);
+  void knockRequested(helical::CameraId camera, double angle_deg, double distance_m);
   void firstImagePainted();
 
  protected:

@@ -16,7 +16,7 @@ constexpr int kMargin = 14;
 constexpr int kRow = 21;
 constexpr int kUnitWidth = 34;
 constexpr int kNumberWidth = 72;
-constexpr int kSheetHeight = 648;
+constexpr int kSheetHeight = 560;
 
 }  // namespace
 

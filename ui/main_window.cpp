@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
+#include <QSettings>
 #include <QStatusBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -16,15 +17,17 @@
 #include <string>
 
 #include "engine/base/log.h"
+#include "engine/geometry/rotation.h"
+#include "ui/alarm_bar.h"
+#include "ui/calibration_panel.h"
 #include "ui/camera_pane.h"
 #include "ui/camera_wall.h"
 #include "ui/emergency_stop.h"
 #include "ui/event_list.h"
 #include "ui/flight_panel.h"
-#include "ui/flight_plots.h"
 #include "ui/format.h"
-#include "ui/legend_key.h"
 #include "ui/panel_title.h"
+#include "ui/plot_deck.h"
 #include "ui/scene_view.h"
 #include "ui/startup_time.h"
 #include "ui/theme.h"
@@ -41,6 +44,10 @@ constexpr std::uint64_t kSceneEvery = 3;
 constexpr TimeNs kSceneFrom = kNanosecondsPerSecond;
 constexpr std::uint64_t kPlotsEvery = 5;
 constexpr std::uint64_t kNumbersEvery = 6;
+constexpr double kGustSeconds = 1.5;
+constexpr int kLayoutVersion = 1;  // another number when panels are added: old places would not fit
+constexpr const char* kGeometryKey = "window/geometry";
+constexpr const char* kPanelsKey = "window/panels";
 
 QWidget* framed(QWidget* content) {
   auto* box = new QWidget;
@@ -60,12 +67,19 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig
   setDockNestingEnabled(true);
   setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  top_bar_ = new TopBar;
+  top_bar_ = new TopBar(rig_);
   setMenuWidget(top_bar_);
   buildPanels();
   buildMenus();
   buildStatusBar();
+  alarms_ = new AlarmBar(this);
   scene_->setFocus();
+  if (std::any_of(rig_.cameras.begin(), rig_.cameras.end(),
+                  [](const CameraConfig& camera) { return camera.pose_is_guess; })) {
+    // What a newcomer should see first: the camera that finds its place.
+    viewpoints_->actions().at(static_cast<int>(SceneViewpoint::kIso))->trigger();
+    plots_->showSheet(PlotDeck::kCalibration);
+  }
 
   connect(top_bar_, &TopBar::takeOffRequested, this, &MainWindow::takeOff);
   connect(top_bar_, &TopBar::landRequested, this, &MainWindow::land);
@@ -79,6 +93,7 @@ MainWindow::~MainWindow() = default;
 
 void MainWindow::attach(Engine& engine) {
   engine_ = &engine;
+  scene_->setPlan(engine.plan());
   since_load_.start();
   timer_.start(kTickMs);
 }
@@ -94,6 +109,30 @@ void MainWindow::fitToScreen() {
   setGeometry(QRect(
       room.topLeft() + QPoint((room.width() - size.width()) / 2, (room.height() - size.height()) / 2), size));
   arrangeDocks();
+}
+
+bool MainWindow::restoreLayout() {
+  if (options_.layout_file.isEmpty()) return false;
+  const QSettings layout(options_.layout_file, QSettings::IniFormat);
+  return restoreGeometry(layout.value(kGeometryKey).toByteArray()) &&
+         restoreState(layout.value(kPanelsKey).toByteArray(), kLayoutVersion);
+}
+
+void MainWindow::saveLayout() const {
+  if (options_.layout_file.isEmpty()) return;
+  QSettings layout(options_.layout_file, QSettings::IniFormat);
+  layout.setValue(kGeometryKey, saveGeometry());
+  layout.setValue(kPanelsKey, saveState(kLayoutVersion));
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  saveLayout();
+  QMainWindow::closeEvent(event);
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  alarms_->place(top_bar_->height() + 40);
 }
 
 void MainWindow::buildPanels() {
@@ -114,10 +153,16 @@ void MainWindow::buildPanels() {
   connect(cameras_, &CameraWall::hideRequested, this, [this](CameraId camera, bool hidden) {
     if (engine_) engine_->hideCamera(camera, hidden);
   });
-  plots_ = new FlightPlots;
-  auto* plots_title = new PanelTitle(tr("Flight plots"), theme::kActive);
-  plots_title->addWidget(new LegendKey(tr("tracked"), theme::kActive, Qt::SolidLine));
-  plots_title->addWidget(new LegendKey(tr("set-point"), theme::kCaution, Qt::DashLine));
+  connect(cameras_, &CameraWall::boardsChanged, this, [this](CameraId camera, const WhiteBoards& boards) {
+    if (engine_) engine_->setBoards(camera, boards);
+  });
+  connect(cameras_, &CameraWall::knockRequested, this,
+          [this](CameraId camera, double angle_deg, double distance_m) {
+            if (engine_) engine_->knockCamera(camera, toRadians(angle_deg), distance_m);
+          });
+  plots_ = new PlotDeck(rig_);
+  auto* plots_title = new PanelTitle(tr("Plots"), theme::kActive);
+  plots_->addControls(*plots_title);
   plots_dock_ = addPanel(plots_title, framed(plots_), Qt::BottomDockWidgetArea);
   flight_ = new FlightPanel;
   auto* scroll = new QScrollArea;
@@ -126,6 +171,13 @@ void MainWindow::buildPanels() {
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   flight_dock_ =
       addPanel(new PanelTitle(tr("Flight"), theme::kActive), framed(scroll), Qt::RightDockWidgetArea);
+  calibration_ = new CalibrationPanel(rig_, Engine::calibrators());
+  connect(calibration_, &CalibrationPanel::methodChosen, this, &MainWindow::chooseMethod);
+  connect(calibration_, &CalibrationPanel::restartRequested, this, [this](CameraId camera) {
+    if (engine_) engine_->restartCalibration(camera);
+  });
+  calibration_dock_ = addPanel(new PanelTitle(tr("Calibration"), theme::kActive), framed(calibration_),
+                               Qt::RightDockWidgetArea);
   events_ = new EventList;
   events_dock_ =
       addPanel(new PanelTitle(tr("Events"), theme::kActive), framed(events_), Qt::RightDockWidgetArea);
@@ -166,6 +218,7 @@ void MainWindow::buildSceneTitle(PanelTitle& title) {
 void MainWindow::buildMenus() {
   buildFlightMenu();
   buildCameraMenu();
+  buildDisturbMenu();
   buildViewMenu();
   buildHelpMenu();
 }
@@ -196,14 +249,40 @@ void MainWindow::buildCameraMenu() {
   }
 }
 
+void MainWindow::buildDisturbMenu() {
+  QMenu* menu = top_bar_->menuBar()->addMenu(tr("&Disturb"));
+  if (!rig_.cameras.empty() && rig_.cameras.front().source == "sim") {
+    const auto add = [&](const QString& text, double speed) {
+      menu->addAction(text, this, [this, speed] {
+        if (engine_) engine_->gust({speed, 0.3 * speed, 0.0}, kGustSeconds);
+      });
+    };
+    add(tr("Light gust (0.8 m/s)"), 0.8);
+    add(tr("Strong gust (2 m/s)"), 2.0);
+    menu->addSeparator();
+  }
+  for (int i = 0; i < cameras_->count(); ++i)
+    menu->addMenu(QString::fromStdString(rig_.cameras[static_cast<std::size_t>(i)].name))
+        ->addActions(cameras_->pane(i).disturbances());
+}
+
 void MainWindow::buildViewMenu() {
   QMenu* menu = top_bar_->menuBar()->addMenu(tr("&View"));
   for (QAction* action : viewpoints_->actions()) menu->addAction(action);
   menu->addSeparator();
-  for (QDockWidget* dock : {cameras_dock_, plots_dock_, flight_dock_, events_dock_})
+  for (QDockWidget* dock : {cameras_dock_, plots_dock_, flight_dock_, calibration_dock_, events_dock_})
     menu->addAction(dock->toggleViewAction());
   menu->addAction(tr("Default layout"), this, &MainWindow::arrangeDocks);
   menu->addSeparator();
+  QAction* coverage = menu->addAction(tr("Border of what two cameras see"));
+  coverage->setCheckable(true);
+  coverage->setChecked(true);
+  connect(coverage, &QAction::toggled, this, [this](bool shown) { scene_->setCoverageShown(shown); });
+  QAction* live = menu->addAction(tr("Pause the plots"));
+  live->setCheckable(true);
+  live->setShortcut(QKeySequence(Qt::Key_Space));
+  connect(live, &QAction::triggered, this, [this](bool paused) { plots_->axis().setLive(!paused); });
+  connect(&plots_->axis(), &TimeAxis::liveChanged, live, [live](bool on) { live->setChecked(!on); });
   QAction* full = menu->addAction(tr("Full screen"));
   full->setCheckable(true);
   full->setShortcut(QKeySequence(Qt::Key_F11));
@@ -221,6 +300,7 @@ void MainWindow::showKeys() {
                   tr("<table cellpadding='4'>"
                      "<tr><td><b>Esc</b></td><td>STOP: rotors off at once, whatever has the focus</td></tr>"
                      "<tr><td><b>1 \u2026 9</b></td><td>hide or show a camera</td></tr>"
+                     "<tr><td><b>Space</b></td><td>hold the plots still, or follow again</td></tr>"
                      "<tr><td><b>F11</b></td><td>full screen</td></tr>"
                      "<tr><td><b>Ctrl+Q</b></td><td>quit</td></tr></table>"),
                   QMessageBox::Ok, this);
@@ -256,10 +336,11 @@ void MainWindow::buildStatusBar() {
 }
 
 void MainWindow::arrangeDocks() {
-  const std::array<std::pair<QDockWidget*, Qt::DockWidgetArea>, 4> places{
+  const std::array<std::pair<QDockWidget*, Qt::DockWidgetArea>, 5> places{
       {{cameras_dock_, Qt::LeftDockWidgetArea},
        {plots_dock_, Qt::BottomDockWidgetArea},
        {flight_dock_, Qt::RightDockWidgetArea},
+       {calibration_dock_, Qt::RightDockWidgetArea},
        {events_dock_, Qt::RightDockWidgetArea}}};
   for (const auto& [dock, area] : places) {
     dock->setFloating(false);
@@ -273,8 +354,14 @@ void MainWindow::arrangeDocks() {
   resizeDocks({cameras_dock_, flight_dock_}, {cameras_width, 278}, Qt::Horizontal);
   resizeDocks({plots_dock_}, {height() * 28 / 100}, Qt::Vertical);
   const int flight_height = flight_->sizeHint().height() + 28;
-  resizeDocks({flight_dock_, events_dock_}, {flight_height, std::max(80, height() - 110 - flight_height)},
-              Qt::Vertical);
+  const int calibration_height = calibration_->sizeHint().height() + 28;
+  const int left = height() - 110 - flight_height - calibration_height;
+  resizeDocks({flight_dock_, calibration_dock_, events_dock_},
+              {flight_height, calibration_height, std::max(80, left)}, Qt::Vertical);
+}
+
+void MainWindow::chooseMethod(const QString& method) {
+  if (engine_) engine_->setCalibrator(method.toStdString());
 }
 
 void MainWindow::takeOff() {
@@ -296,12 +383,14 @@ void MainWindow::tick() {
   EngineEvent event;
   while (engine_->nextEvent(event)) {
     events_->add(event);
+    alarms_->add(event);
     newest_event_->setText(QString::fromUtf8(event.text.data()));
   }
   if (ticks_ % kPictureEvery == 0) fetchPictures();
+  if (ticks_ % kSceneEvery == 0) fetchCalibrations();
   const EngineSnapshot& snapshot = engine_->snapshot();
   if (ticks_ % kSceneEvery == 0 && snapshot.time > kSceneFrom) scene_->show(snapshot);
-  if (ticks_ % kPlotsEvery == 1) plots_->redraw(snapshot.time);
+  if (ticks_ % kPlotsEvery == 1) plots_->redraw();
   if (ticks_ % kNumbersEvery == 1 && snapshot.tick > 0) showNumbers(snapshot);
   if (since_load_.elapsed() >= 1000) showLoad();
   if (options_.auto_take_off && !took_off_by_itself_ && snapshot.pose_known) {
@@ -325,16 +414,26 @@ void MainWindow::fetchPictures() {
     if (engine_->pollPicture(cameraId(i))) cameras_->pane(i).setPicture(engine_->picture(cameraId(i)));
 }
 
+void MainWindow::fetchCalibrations() {
+  for (int i = 0; i < cameras_->count(); ++i) {
+    if (!engine_->pollCalibration(cameraId(i))) continue;
+    const CalibrationView& view = engine_->calibration(cameraId(i));
+    scene_->setCalibration(i, view);
+    calibration_->setHypotheses(i, view.total);
+  }
+}
+
 void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
   for (int i = 0; i < std::min(snapshot.camera_count, cameras_->count()); ++i) {
     const CameraSnapshot& camera = snapshot.cameras[static_cast<std::size_t>(i)];
-    cameras_->pane(i).setState(camera, snapshot.time);
+    cameras_->pane(i).setState(camera, snapshot);
     hide_actions_[static_cast<std::size_t>(i)]->setChecked(camera.hidden);
   }
   top_bar_->show(snapshot);
   take_off_action_->setEnabled(top_bar_->takeOffButton()->isEnabled());
   land_action_->setEnabled(top_bar_->landButton()->isEnabled());
   flight_->show(snapshot);
+  calibration_->show(snapshot);
 }
 
 void MainWindow::showLoad() {

@@ -16,16 +16,19 @@ class QMenu;
 
 namespace helical {
 
+class AlarmBar;
+class CalibrationPanel;
 class CameraWall;
 class EventList;
 class FlightPanel;
-class FlightPlots;
 class PanelTitle;
+class PlotDeck;
 class SceneView;
 class TopBar;
 
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
+  QString layout_file;         ///< where the panels' places are kept from one session to the next; empty: not
 };
 
 /// The ground-control window: docks the panels, polls the engine on one timer and hands each panel what it
@@ -44,13 +47,17 @@ class MainWindow : public QMainWindow {
 
   /// Fills the screen up to 1920x1080.
   void fitToScreen();
+  /// The panels as they were when the window was last closed; false if there is nothing to go by.
+  bool restoreLayout();
 
   /// From the start of the process to the first camera picture on the screen.
   std::optional<TimeNs> firstImageNs() const { return first_image_; }
 
   CameraWall& cameras() const { return *cameras_; }
   SceneView& scene() const { return *scene_; }
-  FlightPlots& plots() const { return *plots_; }
+  PlotDeck& plots() const { return *plots_; }
+  CalibrationPanel& calibration() const { return *calibration_; }
+  AlarmBar& alarms() const { return *alarms_; }
   EventList& events() const { return *events_; }
   TopBar& topBar() const { return *top_bar_; }
 
@@ -62,13 +69,19 @@ class MainWindow : public QMainWindow {
   void land();
   void stop();
 
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  void saveLayout() const;
   void buildPanels();
   QDockWidget* addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area);
   void buildSceneTitle(PanelTitle& title);
   void buildMenus();
   void buildFlightMenu();
   void buildCameraMenu();
+  void buildDisturbMenu();
   void buildViewMenu();
   void buildHelpMenu();
   void buildStatusBar();
@@ -80,6 +93,8 @@ class MainWindow : public QMainWindow {
   void tick();
   void fetchTicks();
   void fetchPictures();
+  void fetchCalibrations();
+  void chooseMethod(const QString& method);
   void showNumbers(const EngineSnapshot& snapshot);
   void showLoad();
   void noteFirstImage();
@@ -96,14 +111,17 @@ class MainWindow : public QMainWindow {
   std::optional<TimeNs> first_image_;
 
   TopBar* top_bar_;
+  AlarmBar* alarms_;
   CameraWall* cameras_;
   SceneView* scene_;
-  FlightPlots* plots_;
+  PlotDeck* plots_;
+  CalibrationPanel* calibration_;
   FlightPanel* flight_;
   EventList* events_;
   QDockWidget* cameras_dock_;
   QDockWidget* plots_dock_;
   QDockWidget* flight_dock_;
+  QDockWidget* calibration_dock_;
   QDockWidget* events_dock_;
   PanelTitle* scene_title_;
   QActionGroup* viewpoints_;

@@ -58,6 +58,49 @@ std::array<double, 16> matrixOf(const RigidTransform& transform) {
           r(2, 0), r(2, 1), r(2, 2), t.z(), 0.0,     0.0,     0.0,     1.0};
 }
 
+/// The same segments, each in dashes.
+std::vector<Vector3d> dashed(const std::vector<Vector3d>& segments, double dash) {
+  std::vector<Vector3d> result;
+  for (std::size_t i = 0; i + 1 < segments.size(); i += 2) {
+    const Vector3d along = segments[i + 1] - segments[i];
+    const int pieces = std::max(1, static_cast<int>(along.norm() / (2.0 * dash)));
+    for (int k = 0; k < pieces; ++k)
+      result.insert(result.end(),
+                    {segments[i] + along * (k + 0.0) / pieces, segments[i] + along * (k + 0.5) / pieces});
+  }
+  return result;
+}
+
+std::vector<Vector3d> circle(double radius, double height) {
+  constexpr int kSides = 96;
+  std::vector<Vector3d> segments;
+  for (int i = 0; i < kSides; ++i)
+    for (const int end : {i, i + 1})
+      segments.emplace_back(radius * std::cos(2.0 * kPi * end / kSides),
+                            radius * std::sin(2.0 * kPi * end / kSides), height);
+  return segments;
+}
+
+/// Three great circles of the unit sphere: lines hide nothing, and a filled ellipsoid costs a software
+/// renderer most of its time.
+std::vector<Vector3d> sphereRings() {
+  std::vector<Vector3d> rings;
+  for (const Vector3d& point : circle(1.0, 0.0)) rings.push_back(point);
+  const std::size_t count = rings.size();
+  for (std::size_t i = 0; i < count; ++i) rings.emplace_back(rings[i].x(), 0.0, rings[i].y());
+  for (std::size_t i = 0; i < count; ++i) rings.emplace_back(0.0, rings[i].x(), rings[i].y());
+  return rings;
+}
+
+/// Apex in the origin, rim of radius 1 at z = 1.
+std::vector<Vector3d> unitCone() {
+  std::vector<Vector3d> lines = circle(1.0, 1.0);
+  const std::size_t count = lines.size();
+  for (std::size_t i = 0; i < count; i += count / 8)
+    lines.insert(lines.end(), {Vector3d::Zero(), Vector3d(lines[i])});
+  return lines;
+}
+
 Mesh gridLines(int step_from, bool major) {
   std::vector<Vector3d> points;
   constexpr int kLines = static_cast<int>(kGridReach / 0.25);
@@ -77,9 +120,15 @@ struct Scene::CameraActors {
   vtkSmartPointer<vtkActor> body;
   vtkSmartPointer<vtkActor> edges;
   vtkSmartPointer<vtkActor> faces;
+  vtkSmartPointer<vtkTransform> world_from_true_camera = vtkSmartPointer<vtkTransform>::New();
+  vtkSmartPointer<vtkActor> truth;
+  vtkSmartPointer<vtkTransform> spread = vtkSmartPointer<vtkTransform>::New();
+  vtkSmartPointer<vtkActor> ellipsoid;
+  vtkSmartPointer<vtkTransform> cone_shape = vtkSmartPointer<vtkTransform>::New();
+  vtkSmartPointer<vtkActor> cone;
 };
 
-/// Lines whose points and colours change with every frame.
+/// Lines and dots whose points and colours change with every frame.
 struct Scene::Polyline {
   Polyline() {
     colors->SetNumberOfComponents(4);
@@ -95,6 +144,7 @@ struct Scene::Polyline {
     points->Reset();
     colors->Reset();
     cells = vtkSmartPointer<vtkCellArray>::New();
+    dots = vtkSmartPointer<vtkCellArray>::New();
   }
   vtkIdType add(const Vector3d& point, const QColor& color, int alpha) {
     colors->InsertNextTuple4(color.red(), color.green(), color.blue(), alpha);
@@ -104,18 +154,21 @@ struct Scene::Polyline {
     const vtkIdType ends[2] = {from, to};
     cells->InsertNextCell(2, ends);
   }
+  void dot(vtkIdType at) { dots->InsertNextCell(1, &at); }
   void finish() {
     mesh->SetLines(cells);
+    mesh->SetVerts(dots);
     mesh->GetPointData()->SetScalars(colors);
     points->Modified();
     colors->Modified();
     mesh->Modified();
-    actor->SetVisibility(cells->GetNumberOfCells() > 0);
+    actor->SetVisibility(cells->GetNumberOfCells() + dots->GetNumberOfCells() > 0);
   }
 
   vtkSmartPointer<vtkPoints> points = vtkSmartPointer<vtkPoints>::New();
   vtkSmartPointer<vtkUnsignedCharArray> colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
   vtkSmartPointer<vtkCellArray> cells = vtkSmartPointer<vtkCellArray>::New();
+  vtkSmartPointer<vtkCellArray> dots = vtkSmartPointer<vtkCellArray>::New();
   vtkSmartPointer<vtkPolyData> mesh = vtkSmartPointer<vtkPolyData>::New();
   vtkSmartPointer<vtkActor> actor = vtkSmartPointer<vtkActor>::New();
 };
@@ -136,6 +189,8 @@ Scene::Scene(const SceneSetup& setup)
   buildHelicopter(setup);
   buildRotors(setup);
   buildCameras(setup);
+  buildFence(setup);
+  buildPlan(setup);
   buildLines();
 }
 
@@ -279,8 +334,39 @@ void Scene::buildCameras(const SceneSetup& setup) {
       actor->SetUserTransform(actors.world_from_camera);
       add(actor);
     }
+    actors.truth = shapes::flat(shapes::segments(dashed(edges, 0.012)), camera.color.lighter(140), 0.85, 1.4);
+    actors.truth->SetUserTransform(actors.world_from_true_camera);
+    actors.ellipsoid = shapes::flat(shapes::segments(sphereRings()), camera.color, 0.7);
+    actors.ellipsoid->SetUserTransform(actors.spread);
+    actors.cone = shapes::flat(shapes::segments(unitCone()), camera.color, 0.45);
+    actors.cone_shape->SetInput(actors.world_from_camera);
+    actors.cone->SetUserTransform(actors.cone_shape);
+    for (const auto& actor : {actors.truth, actors.ellipsoid, actors.cone}) add(actor);
     cameras_.push_back(actors);
   }
+}
+
+void Scene::buildFence(const SceneSetup& setup) {
+  std::vector<Vector3d> lines = circle(setup.fence_radius, 0.003);
+  const std::vector<Vector3d> top = circle(setup.fence_radius, setup.fence_height);
+  lines.insert(lines.end(), top.begin(), top.end());
+  for (int i = 0; i < 12; ++i) {
+    const Vector3d foot(setup.fence_radius * std::cos(kPi * i / 6.0),
+                        setup.fence_radius * std::sin(kPi * i / 6.0), 0.003);
+    lines.insert(lines.end(), {foot, Vector3d(foot.x(), foot.y(), setup.fence_height)});
+  }
+  fence_ = shapes::flat(shapes::segments(dashed(lines, 0.02)), theme::kCaution, 0.12);
+  fence_->SetUserTransform(floor_);
+  if (setup.fence_radius > 0.0) add(fence_);
+}
+
+void Scene::buildPlan(const SceneSetup& setup) {
+  std::vector<Vector3d> legs;
+  for (std::size_t i = 0; i < setup.plan.size(); ++i) {
+    if (i > 0) legs.insert(legs.end(), {setup.plan[i - 1], setup.plan[i]});
+    add(shapes::flat(ellipsoid(setup.plan[i], {0.012, 0.012, 0.012}, 12), theme::kCaution, 0.55));
+  }
+  if (!legs.empty()) add(shapes::flat(shapes::segments(dashed(legs, 0.02)), theme::kCaution, 0.5, 1.2));
 }
 
 void Scene::buildLines() {
@@ -288,7 +374,13 @@ void Scene::buildLines() {
   trail_->actor->GetProperty()->SetLineWidth(2.0F);
   rays_ = std::make_unique<Polyline>();
   drop_line_ = std::make_unique<Polyline>();
-  for (const Polyline* line : {trail_.get(), rays_.get(), drop_line_.get()}) add(line->actor);
+  particles_ = std::make_unique<Polyline>();
+  particles_->actor->GetProperty()->SetPointSize(3.0F);
+  coverage_ = std::make_unique<Polyline>();
+  coverage_->actor->GetProperty()->SetLineWidth(1.2F);
+  for (const Polyline* line :
+       {coverage_.get(), trail_.get(), rays_.get(), drop_line_.get(), particles_.get()})
+    add(line->actor);
 
   constexpr double kArm = 0.06;
   set_point_actor_ = shapes::flat(
@@ -304,6 +396,9 @@ void Scene::show(const SceneFrame& frame) {
   floor_->Translate(0.0, 0.0, frame.floor_height);
   showHelicopter(frame);
   showCameras(frame);
+  showParticles(frame);
+  showCoverage(frame);
+  fence_->GetProperty()->SetOpacity(0.12 + 0.7 * frame.fence_nearness);
   showTrail(frame);
   showRays(frame);
   showReference(frame);
@@ -334,12 +429,53 @@ void Scene::showCameras(const SceneFrame& frame) {
     const SceneCameraPose& pose = frame.cameras[i];
     const CameraActors& actors = cameras_[i];
     for (const auto& actor : {actors.body, actors.edges, actors.faces}) actor->SetVisibility(pose.known);
+    actors.truth->SetVisibility(pose.has_truth);
+    if (pose.has_truth)
+      actors.world_from_true_camera->SetMatrix(matrixOf(pose.true_camera_from_world.inverse()).data());
+    showSpread(actors, pose);
     if (!pose.known) continue;
     actors.world_from_camera->SetMatrix(matrixOf(pose.camera_from_world.inverse()).data());
     actors.body->GetProperty()->SetOpacity(pose.in_use ? 1.0 : 0.35);
     actors.edges->GetProperty()->SetOpacity(pose.in_use ? 0.75 : 0.25);
     actors.faces->GetProperty()->SetOpacity(pose.in_use ? 0.07 : 0.02);
   }
+}
+
+void Scene::showSpread(const CameraActors& actors, const SceneCameraPose& pose) {
+  const bool shown = pose.known && pose.has_spread;
+  actors.ellipsoid->SetVisibility(shown);
+  actors.cone->SetVisibility(shown);
+  if (!shown) return;
+  const RigidTransform place{pose.spread_axes, pose.camera_from_world.inverseTranslation()};
+  actors.spread->SetMatrix(matrixOf(place).data());
+  actors.spread->Scale(pose.spread_radii.data());
+  const double length = 1.6 * kFrustumLength, width = length * std::tan(std::min(pose.spread_angle, 0.8));
+  actors.cone_shape->Identity();
+  actors.cone_shape->Scale(width, width, length);
+}
+
+void Scene::showCoverage(const SceneFrame& frame) {
+  if (frame.coverage == shown_coverage_) return;
+  shown_coverage_ = frame.coverage;
+  coverage_->clear();
+  for (std::size_t i = 0; frame.coverage && i + 1 < frame.coverage->size(); i += 2) {
+    const vtkIdType from = coverage_->add((*frame.coverage)[i], theme::kHealthy, 80);
+    coverage_->line(from, coverage_->add((*frame.coverage)[i + 1], theme::kHealthy, 80));
+  }
+  coverage_->finish();
+}
+
+void Scene::showParticles(const SceneFrame& frame) {
+  particles_->clear();
+  for (const SceneParticle& particle : frame.particles) {
+    const QColor& color = camera_colors_[static_cast<std::size_t>(particle.camera)];
+    const auto blend = [&](int channel) {
+      return static_cast<int>(channel + particle.weight * (255 - channel));
+    };
+    const QColor shade(blend(color.red()), blend(color.green()), blend(color.blue()));
+    particles_->dot(particles_->add(particle.position, shade, static_cast<int>(90 + 165 * particle.weight)));
+  }
+  particles_->finish();
 }
 
 void Scene::showTrail(const SceneFrame& frame) {

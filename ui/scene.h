@@ -40,11 +40,16 @@ class Scene {
   void buildRotors(const SceneSetup& setup);
   void buildCameras(const SceneSetup& setup);
   void buildLines();
+  void buildFence(const SceneSetup& setup);
+  void buildPlan(const SceneSetup& setup);
   void add(const vtkSmartPointer<vtkActor>& actor);
   void addToHelicopter(const vtkSmartPointer<vtkActor>& actor, vtkTransform* transform);
 
   void showHelicopter(const SceneFrame& frame);
   void showCameras(const SceneFrame& frame);
+  void showSpread(const CameraActors& actors, const SceneCameraPose& pose);
+  void showCoverage(const SceneFrame& frame);
+  void showParticles(const SceneFrame& frame);
   void showTrail(const SceneFrame& frame);
   void showRays(const SceneFrame& frame);
   void showReference(const SceneFrame& frame);
@@ -63,6 +68,10 @@ class Scene {
   std::unique_ptr<Polyline> trail_;
   std::unique_ptr<Polyline> rays_;
   std::unique_ptr<Polyline> drop_line_;
+  std::unique_ptr<Polyline> particles_;
+  std::unique_ptr<Polyline> coverage_;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> shown_coverage_;
+  vtkSmartPointer<vtkActor> fence_;
 };
 
 }  // namespace helical

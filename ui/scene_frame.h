@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <QColor>
 #include <QImage>
 #include <QPointF>
 #include <QString>
+#include <memory>
 #include <vector>
 
 #include "engine/geometry/camera_model.h"
@@ -25,6 +27,9 @@ struct SceneSetup {
   std::vector<SceneCamera> cameras;
   MarkerLayout markers;
   HelicopterParameters helicopter;
+  double fence_radius = 0.0;          ///< m from the pad's centre
+  double fence_height = 0.0;          ///< m above the pad
+  std::vector<Eigen::Vector3d> plan;  ///< waypoints of the helicopter's origin, in flying order
 };
 
 /// A line from a camera through a marker it sees.
@@ -38,6 +43,19 @@ struct SceneCameraPose {
   bool known = false;
   bool in_use = false;  ///< calibrated and not hidden
   RigidTransform camera_from_world;
+  bool has_truth = false;  ///< a place that is being learnt, and it is known where the camera truly is
+  RigidTransform true_camera_from_world;
+  bool has_spread = false;  ///< three standard deviations of what is believed
+  Eigen::Quaterniond spread_axes = Eigen::Quaterniond::Identity();  ///< world from the ellipsoid's axes
+  Eigen::Vector3d spread_radii = Eigen::Vector3d::Zero();           ///< m
+  double spread_angle = 0.0;                                        ///< of the optical axis [rad]
+};
+
+/// One hypothesis of where a camera is.
+struct SceneParticle {
+  int camera = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double weight = 0.0;  ///< over that of the heaviest
 };
 
 enum class Presence { kAbsent, kLastKnown, kTracked };
@@ -56,6 +74,9 @@ struct SceneFrame {
   std::vector<Eigen::Vector3d> trail;  ///< oldest first
   std::vector<SceneCameraPose> cameras;
   std::vector<SceneRay> rays;
+  std::vector<SceneParticle> particles;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> coverage;  ///< lines, two points each; null: not shown
+  double fence_nearness = 0.0;                                   ///< 0 far from the fence, 1 at it
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX();
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();

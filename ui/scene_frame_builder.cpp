@@ -1,9 +1,11 @@
 #include "ui/scene_frame_builder.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/rotation.h"
+#include "ui/coverage.h"
 #include "ui/status_words.h"
 #include "ui/theme.h"
 
@@ -12,16 +14,54 @@ namespace {
 
 constexpr TimeNs kTrailLength = 12 * kNanosecondsPerSecond;
 constexpr TimeNs kTrailStep = 50 * kNanosecondsPerMillisecond;
+constexpr std::array<double, 4> kCoverageHeights{0.01, 0.3, 0.6, 0.9};  // of the fence's
+constexpr double kCoverageReach = 2.0;                                  // of the fence's radius
+constexpr double kFenceSeen = 0.6;  // m from it the fence begins to light up
 constexpr TimeNs kRayLife = 100 * kNanosecondsPerMillisecond;
 /// True rotor speed would alias at the scene's frame rate; this one is seen to turn.
 constexpr double kShownRotorSpeed = 30.0;  // rad/s at full demand
 
+/// The ellipsoid of three standard deviations of a camera's place, and how far its axis may be off.
+void addSpread(const CameraEstimate& estimate, SceneCameraPose& pose) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(estimate.covariance.bottomRightCorner<3, 3>());
+  if (axes.eigenvalues().z() <= 0.0) return;
+  Eigen::Matrix3d rotation = axes.eigenvectors();
+  if (rotation.determinant() < 0.0) rotation.col(0) *= -1.0;
+  pose.has_spread = true;
+  pose.spread_axes = Eigen::Quaterniond(rotation);
+  pose.spread_radii = 3.0 * axes.eigenvalues().cwiseMax(1e-8).cwiseSqrt();
+  pose.spread_angle = 3.0 * std::sqrt(0.5 * estimate.covariance.topLeftCorner<2, 2>().trace());
+}
+
+SceneCameraPose cameraPose(const CameraSnapshot& camera) {
+  SceneCameraPose pose;
+  const CameraStatus status = camera.estimate.status;
+  pose.known = status != CameraStatus::kUncalibrated;
+  pose.in_use = status == CameraStatus::kCalibrated && !camera.hidden;
+  pose.camera_from_world = camera.estimate.camera_from_world;
+  if (camera.calibration_method == nullptr) return pose;
+  pose.has_truth = camera.has_truth;
+  pose.true_camera_from_world = camera.true_camera_from_world;
+  addSpread(camera.estimate, pose);
+  return pose;
+}
+
+/// Too little moved for the border of what it sees to look different.
+bool near(const RigidTransform& a, const RigidTransform& b) {
+  return a.rotation.angularDistance(b.rotation) < 0.01 &&
+         (a.inverseTranslation() - b.inverseTranslation()).norm() < 0.02;
+}
+
 }  // namespace
 
-SceneSetup sceneSetup(const RigConfig& rig) {
+SceneSetup sceneSetup(const RigConfig& rig, const FlightPlan& plan) {
   SceneSetup setup;
   setup.markers = rig.markers_in_body;
   setup.helicopter = rig.helicopter;
+  setup.fence_radius = rig.safety.fence_radius;
+  setup.fence_height = rig.safety.fence_height;
+  const Eigen::Vector3d stand(0.0, 0.0, rig.helicopter.standing_height);
+  for (const Waypoint& waypoint : plan.waypoints) setup.plan.push_back(stand + waypoint.position_above_pad);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     setup.cameras.push_back({QString::fromStdString(rig.cameras[i].name),
                              theme::cameraColor(static_cast<int>(i)), rig.cameras[i].model});
@@ -37,6 +77,15 @@ void SceneFrameBuilder::addTick(const EngineSnapshot& tick) {
   ever_tracked_ = true;
   last_pose_ = tick.tracked.state.world_from_body;
   addToTrail(tick);
+}
+
+void SceneFrameBuilder::setCalibration(int camera, const CalibrationView& view) {
+  auto& particles = particles_[static_cast<std::size_t>(camera)];
+  particles.clear();
+  for (int i = 0; i < view.count; ++i) {
+    const auto& particle = view.particles[static_cast<std::size_t>(i)];
+    particles.push_back({camera, particle.centre_in_world.cast<double>(), particle.weight});
+  }
 }
 
 void SceneFrameBuilder::addToTrail(const EngineSnapshot& tick) {
@@ -69,7 +118,32 @@ void SceneFrameBuilder::addRays(const EngineSnapshot& snapshot, int camera, Scen
   }
 }
 
-SceneFrame SceneFrameBuilder::build(const EngineSnapshot& snapshot) const {
+void SceneFrameBuilder::updateCoverage(const SceneFrame& frame) {
+  const bool same = std::equal(frame.cameras.begin(), frame.cameras.end(), covering_.begin(), covering_.end(),
+                               [](const SceneCameraPose& now, const SceneCameraPose& then) {
+                                 return now.in_use == then.in_use &&
+                                        (!now.in_use || near(now.camera_from_world, then.camera_from_world));
+                               });
+  if (same) return;
+  covering_ = frame.cameras;
+  std::vector<CoveringCamera> cameras;
+  for (std::size_t i = 0; i < covering_.size(); ++i)
+    if (covering_[i].in_use) cameras.push_back({&rig_.cameras[i].model, covering_[i].camera_from_world});
+  std::vector<double> heights;
+  for (const double share : kCoverageHeights) heights.push_back(share * rig_.safety.fence_height);
+  coverage_ = std::make_shared<const std::vector<Eigen::Vector3d>>(
+      coverageContours(cameras, heights, kCoverageReach * rig_.safety.fence_radius));
+}
+
+double SceneFrameBuilder::fenceNearness(const SceneFrame& frame) const {
+  if (frame.presence != Presence::kTracked) return 0.0;
+  const Eigen::Vector3d& place = frame.world_from_body.translation;
+  const double left = std::min(rig_.safety.fence_radius - place.head<2>().norm(),
+                               rig_.safety.fence_height - (place.z() - frame.floor_height));
+  return std::clamp(1.0 - left / kFenceSeen, 0.0, 1.0);
+}
+
+SceneFrame SceneFrameBuilder::build(const EngineSnapshot& snapshot) {
   SceneFrame frame;
   frame.presence = snapshot.pose_known ? Presence::kTracked
                    : ever_tracked_     ? Presence::kLastKnown
@@ -85,11 +159,15 @@ SceneFrame SceneFrameBuilder::build(const EngineSnapshot& snapshot) const {
   for (const TrailPoint& point : trail_) frame.trail.push_back(point.position);
   for (int i = 0; i < snapshot.camera_count; ++i) {
     const CameraSnapshot& camera = snapshot.cameras[static_cast<std::size_t>(i)];
-    const CameraStatus status = camera.estimate.status;
-    frame.cameras.push_back({status != CameraStatus::kUncalibrated,
-                             status == CameraStatus::kCalibrated && !camera.hidden,
-                             camera.estimate.camera_from_world});
+    frame.cameras.push_back(cameraPose(camera));
     addRays(snapshot, i, frame);
+    const auto& particles = particles_[static_cast<std::size_t>(i)];
+    frame.particles.insert(frame.particles.end(), particles.begin(), particles.end());
+  }
+  frame.fence_nearness = fenceNearness(frame);
+  if (coverage_shown_) {
+    updateCoverage(frame);
+    frame.coverage = coverage_;
   }
   return frame;
 }

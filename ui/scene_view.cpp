@@ -48,7 +48,7 @@ void SceneView::look(SceneViewpoint viewpoint) {
 void SceneView::show(const EngineSnapshot& snapshot) {
   if (!isVisible()) return;
   if (!renderer_) {
-    renderer_ = std::make_unique<SceneThread>(sceneSetup(rig_));
+    renderer_ = std::make_unique<SceneThread>(sceneSetup(rig_, plan_));
     connect(renderer_.get(), &SceneThread::rendered, this, [this](const RenderedScene& scene) {
       shown_ = scene;
       ++rendered_;

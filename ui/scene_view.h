@@ -23,6 +23,10 @@ class SceneView : public QWidget {
   ~SceneView() override;
 
   void addTick(const EngineSnapshot& tick);
+  void setCalibration(int camera, const CalibrationView& view) { builder_.setCalibration(camera, view); }
+  void setCoverageShown(bool shown) { builder_.setCoverageShown(shown); }
+  /// What is to be flown; before the first `show`.
+  void setPlan(const FlightPlan& plan) { plan_ = plan; }
   /// Asks for a picture of this state; skipped while the last one is being drawn. The first call starts the
   /// render thread.
   void show(const EngineSnapshot& snapshot);
@@ -42,6 +46,7 @@ class SceneView : public QWidget {
   void paintUnknownCameras(QPainter& painter) const;
 
   const RigConfig& rig_;
+  FlightPlan plan_;
   SceneFrameBuilder builder_;
   OrbitView orbit_;
   std::unique_ptr<SceneThread> renderer_;

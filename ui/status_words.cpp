@@ -32,6 +32,20 @@ StatusWord cameraStatusWord(CameraStatus status) {
   return {};
 }
 
+StatusWord calibrationWord(const EngineSnapshot& snapshot, int camera) {
+  const CameraSnapshot& state = snapshot.cameras[static_cast<std::size_t>(camera)];
+  const StatusWord word = cameraStatusWord(state.estimate.status);
+  if (state.estimate.status == CameraStatus::kCalibrated) return word;
+  if (state.hidden) return {tr("Hidden"), theme::kCaution};
+  int teachers = 0;
+  for (int i = 0; i < snapshot.camera_count; ++i) {
+    const CameraTrack& track = snapshot.cameras[static_cast<std::size_t>(i)].track;
+    if (i != camera && track.selected_count > 0 && snapshot.time - track.exposure < kTrackedFor) ++teachers;
+  }
+  if (teachers < 2) return {tr("Needs two others"), theme::kCaution};
+  return word;
+}
+
 StatusWord phaseWord(FlightPhase phase) {
   switch (phase) {
     case FlightPhase::kIdle:
@@ -73,6 +87,7 @@ StatusWord readinessWord(const EngineSnapshot& snapshot) {
   if (snapshot.phase == FlightPhase::kOff) return {tr("Landed"), theme::kHealthy};
   if (snapshot.safety != SafetyState::kNormal) return safetyWord(snapshot.safety);
   if (inFlight(snapshot.phase)) return phaseWord(snapshot.phase);
+  if (snapshot.pose_known && snapshot.obstacle != nullptr) return {tr("Not ready"), theme::kCaution};
   if (snapshot.pose_known) return {tr("Ready"), theme::kHealthy};
   return {tr("No pose"), theme::kCaution};
 }

@@ -14,6 +14,8 @@ struct StatusWord {
 };
 
 StatusWord cameraStatusWord(CameraStatus status);
+/// Of a camera that is calibrated in flight: also what it waits for.
+StatusWord calibrationWord(const EngineSnapshot& snapshot, int camera);
 StatusWord phaseWord(FlightPhase phase);
 StatusWord safetyWord(SafetyState state);
 

@@ -27,6 +27,8 @@ QPushButton#stop { background: #b8262b; border-color: #e2474b; color: #ffffff; p
 QPushButton#stop:hover { background: #d02f34; }
 QPushButton#stop:pressed { background: #8f1b20; }
 QPushButton#stop:focus { border-color: #ffffff; }
+QPushButton#acknowledge { background: #ffffff; border-color: #ffffff; color: #7a1216; }
+QPushButton#acknowledge:hover { background: #ffe3e4; }
 QMenuBar { background: transparent; border: 0; }
 QMenuBar::item { padding: 5px 9px; border-radius: 4px; color: #a9b6c4; background: transparent; }
 QMenuBar::item:selected, QMenuBar::item:pressed { background: #18202a; color: #d6dee7; }

@@ -6,6 +6,7 @@
 #include <QPushButton>
 
 #include "ui/format.h"
+#include "ui/preflight_popup.h"
 #include "ui/status_chip.h"
 #include "ui/status_words.h"
 #include "ui/theme.h"
@@ -46,13 +47,17 @@ QPushButton* makeButton(const QString& text, const QString& tip, const char* obj
 
 }  // namespace
 
-TopBar::TopBar(QWidget* parent) : QWidget(parent), menu_bar_(new QMenuBar) {
+TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_bar_(new QMenuBar), rig_(rig) {
   setObjectName(QStringLiteral("topBar"));
   setAttribute(Qt::WA_StyledBackground);
   setFixedHeight(kHeight);
-  readiness_ = new QLabel(tr("Starting"));
+  readiness_ = new QPushButton(tr("Starting"));
+  readiness_->setFocusPolicy(Qt::TabFocus);
+  readiness_->setAutoDefault(false);
+  readiness_->setToolTip(tr("Click for the pre-flight list"));
+  preflight_ = new PreflightPopup(this);
+  connect(readiness_, &QPushButton::clicked, this, [this] { preflight_->openBelow(*readiness_); });
   readiness_->setFont(theme::capsFont(10, QFont::Bold));
-  readiness_->setAlignment(Qt::AlignCenter);
   readiness_->setFixedHeight(kButtonHeight);
   readiness_->setMinimumWidth(QFontMetrics(readiness_->font()).horizontalAdvance(tr("Descending").toUpper()) +
                               36);
@@ -88,7 +93,7 @@ TopBar::TopBar(QWidget* parent) : QWidget(parent), menu_bar_(new QMenuBar) {
 
 void TopBar::buildButtons() {
   take_off_ = makeButton(tr("Take off"),
-                         tr("Start the flight plan; needs a pose and the helicopter on the pad"), "takeOff");
+                         tr("Start the flight plan; the readiness word tells what is missing"), "takeOff");
   land_ = makeButton(tr("Land"), tr("Land where it is"), "land");
   stop_ = makeButton(tr("STOP"), tr("Rotors off at once (Esc). It falls from where it is, and stays off."),
                      "stop");
@@ -125,13 +130,15 @@ void TopBar::setReadiness(const EngineSnapshot& snapshot) {
 
 void TopBar::show(const EngineSnapshot& snapshot) {
   setReadiness(snapshot);
+  preflight_->show(preflightList(rig_, snapshot));
   mode_->setText(snapshot.has_truth ? tr("Simulation") : tr("Live"));
   const int tracked = trackedCameras(snapshot);
   const QColor cameras_color = tracked == 0                      ? theme::kCaution
                                : tracked < snapshot.camera_count ? theme::kActive
                                                                  : theme::kHealthy;
   cameras_->set(QStringLiteral("%1/%2").arg(tracked).arg(snapshot.camera_count), cameras_color);
-  engine_->set(tr("%1 Hz").arg(plainNumber(snapshot.ticks_per_second, 1)), theme::kHealthy);
+  engine_->set(tr("%1 Hz").arg(plainNumber(snapshot.ticks_per_second, 1)),
+               snapshot.ticks_per_second > 0.9 * rig_.control.rate_hz ? theme::kHealthy : theme::kCaution);
   time_->set(snapshot.flight_time_s > 0.0 ? clockText(fromSeconds(snapshot.flight_time_s)) : kNoValue,
              inFlight(snapshot.phase) ? theme::kActive : theme::kFaint);
   const bool cut = snapshot.safety == SafetyState::kCut;

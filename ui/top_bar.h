@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include "engine/config/rig_config.h"
 #include "engine/pipeline/snapshot.h"
 
 class QLabel;
@@ -10,20 +11,24 @@ class QPushButton;
 
 namespace helical {
 
+class PreflightPopup;
 class StatusChip;
 
-/// The bar that is always there: name, menus, readiness in one word, rates, flight time, Take off, Land,
-/// STOP. Buttons only ask; what is shown is what the engine answers.
+/// The bar that is always there: name, menus, readiness in one word (a click opens the pre-flight list),
+/// rates, flight time, Take off, Land, STOP. Buttons only ask; what is shown is what the engine answers.
 class TopBar : public QWidget {
   Q_OBJECT
 
  public:
-  explicit TopBar(QWidget* parent = nullptr);
+  /// `rig` must outlive this.
+  explicit TopBar(const RigConfig& rig, QWidget* parent = nullptr);
 
   QMenuBar* menuBar() const { return menu_bar_; }
   QPushButton* takeOffButton() const { return take_off_; }
   QPushButton* landButton() const { return land_; }
   QPushButton* stopButton() const { return stop_; }
+  QPushButton* readinessButton() const { return readiness_; }
+  PreflightPopup& preflight() const { return *preflight_; }
   QString readiness() const;
 
   void show(const EngineSnapshot& snapshot);
@@ -38,7 +43,9 @@ class TopBar : public QWidget {
   void setReadiness(const EngineSnapshot& snapshot);
 
   QMenuBar* menu_bar_;
-  QLabel* readiness_;
+  const RigConfig& rig_;
+  QPushButton* readiness_;
+  PreflightPopup* preflight_;
   QLabel* mode_;
   StatusChip* cameras_;
   StatusChip* engine_;

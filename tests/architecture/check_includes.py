@@ -19,7 +19,7 @@ HEADER_THIRD_PARTY = re.compile(r"^Eigen/")
 
 # The engine as the window knows it: the facade and value types.
 UI_MAY_INCLUDE = re.compile(
-    r"^(engine/pipeline/(engine|snapshot)\.h"
+    r"^(engine/pipeline/(engine|snapshot|white_board)\.h"
     r"|engine/config/\w+\.h"
     r"|engine/flight/(flight_plan|flight_state)\.h"
     r"|engine/(base|geometry|helicopter)/\w+\.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -194,6 +196,34 @@ TEST(World, GustsMoveWhatFlies) {
   for (World* world : {&a, &b}) world->command(throttle(kHop), fromSeconds(0.3));
   EXPECT_GT((after(a, 1.2).world_from_body.translation - after(b, 1.2).world_from_body.translation).norm(),
             1e-4);
+}
+
+TEST(World, AnOrderedGustPushesItsWayAndEnds) {
+  SimulationOptions calm = seeded(6);
+  calm.gust_factor = 0.0;
+  World still(calm, HelicopterParameters::xrb()), pushed(calm, HelicopterParameters::xrb());
+  for (World* world : {&still, &pushed}) world->command(throttle(kHop), fromSeconds(0.3));
+  after(still, 0.9), after(pushed, 0.9);
+  pushed.gust({2.0, 0.0, 0.0}, 0.2);
+  const auto drift = [&](double time_s) {
+    return after(pushed, time_s).velocity_in_world.x() - after(still, time_s).velocity_in_world.x();
+  };
+  EXPECT_LT(std::abs(drift(0.901)), 1e-3) << "it swells";
+  EXPECT_GT(drift(1.1), 0.02);
+}
+
+TEST(World, AKnockMovesOneCameraFromWhereverItIs) {
+  World world(seeded(6), HelicopterParameters::xrb());
+  RigidTransform pose;
+  pose.translation = {0.1, -0.2, 2.5};
+  EXPECT_EQ(world.knocked(cameraId(1), pose).translation, pose.translation);
+  world.knock(cameraId(1), 0.1, 0.05);
+  EXPECT_EQ(world.knocked(cameraId(0), pose).translation, pose.translation) << "another camera";
+  const RigidTransform once = world.knocked(cameraId(1), pose);
+  EXPECT_NEAR(once.rotation.angularDistance(pose.rotation), 0.1, 1e-9);
+  EXPECT_NEAR((once.inverseTranslation() - pose.inverseTranslation()).norm(), 0.05, 1e-9);
+  world.knock(cameraId(1), 0.2, 0.0);
+  EXPECT_NEAR(world.knocked(cameraId(1), pose).rotation.angularDistance(once.rotation), 0.2, 1e-9);
 }
 
 }  // namespace

@@ -81,6 +81,45 @@ TEST(SceneFrameBuilder, ACameraWithoutAPoseIsNotDrawn) {
   EXPECT_FALSE(builder.build(snapshot).cameras[0].known);
 }
 
+TEST(SceneFrameBuilder, ALearntPlaceIsShownWithItsSpreadItsTruthAndItsParticles) {
+  const RigConfig rig = rigOfOneCamera();
+  EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  CameraSnapshot& camera = snapshot.cameras[0];
+  camera.has_truth = true;
+  EXPECT_FALSE(builder.build(snapshot).cameras[0].has_truth) << "its place was given: nothing to compare";
+  camera.calibration_method = "particle-filter";
+  EXPECT_TRUE(builder.build(snapshot).cameras[0].has_truth);
+  EXPECT_FALSE(builder.build(snapshot).cameras[0].has_spread) << "a bare guess";
+  camera.estimate.covariance.diagonal() << 1e-4, 1e-4, 1e-4, 4e-4, 1e-4, 9e-4;
+  const SceneCameraPose pose = builder.build(snapshot).cameras[0];
+  ASSERT_TRUE(pose.has_spread);
+  EXPECT_NEAR(pose.spread_radii.maxCoeff(), 3 * 0.03, 1e-9);
+  EXPECT_NEAR(pose.spread_radii.minCoeff(), 3 * 0.01, 1e-9);
+  EXPECT_NEAR(pose.spread_angle, 3 * 0.01, 1e-9);
+  EXPECT_NEAR((pose.spread_axes * Eigen::Vector3d::UnitZ()).cwiseAbs().z(), 1.0, 1e-9) << "largest along z";
+
+  CalibrationView view;
+  view.total = view.count = 2;
+  view.particles[1] = {{1.0F, 2.0F, 3.0F}, 0.5F};
+  builder.setCalibration(0, view);
+  const SceneFrame frame = builder.build(snapshot);
+  ASSERT_EQ(frame.particles.size(), 2U);
+  EXPECT_TRUE(frame.particles[1].position.isApprox(Eigen::Vector3d(1.0, 2.0, 3.0)));
+}
+
+TEST(SceneFrameBuilder, TheFenceLightsUpNearIt) {
+  const RigConfig rig = rigOfOneCamera();
+  EngineSnapshot snapshot = snapshotFromAbove(rig);
+  SceneFrameBuilder builder(rig);
+  snapshot.tracked.state.world_from_body.translation = {0.1, 0.0, 0.5};
+  EXPECT_EQ(builder.build(snapshot).fence_nearness, 0.0);
+  snapshot.tracked.state.world_from_body.translation = {rig.safety.fence_radius, 0.0, 0.5};
+  EXPECT_EQ(builder.build(snapshot).fence_nearness, 1.0);
+  snapshot.tracked.state.world_from_body.translation = {0.0, 0.0, rig.safety.fence_height - 0.2};
+  EXPECT_GT(builder.build(snapshot).fence_nearness, 0.3);
+}
+
 TEST(SceneFrameBuilder, RotorsTurnAgainstEachOtherAndStandWithoutDemand) {
   const RigConfig rig = rigOfOneCamera();
   EngineSnapshot snapshot = snapshotFromAbove(rig);

@@ -28,6 +28,12 @@ TEST(StatusWords, ReadinessSaysWhatMattersMost) {
   EXPECT_EQ(word(FlightPhase::kOff, SafetyState::kCut, true), "Cut");
 }
 
+TEST(StatusWords, NotReadyWhileTheAutopilotWouldRefuse) {
+  EngineSnapshot snapshot = snapshotOf(FlightPhase::kIdle, SafetyState::kNormal, true);
+  snapshot.obstacle = "it moves";
+  EXPECT_EQ(readinessWord(snapshot).text, "Not ready");
+}
+
 TEST(StatusWords, RedIsDangerAndNothingElse) {
   for (int phase = 0; phase <= static_cast<int>(FlightPhase::kOff); ++phase)
     for (int safety = 0; safety <= static_cast<int>(SafetyState::kCut); ++safety) {
@@ -57,6 +63,23 @@ TEST(StatusWords, ACameraCountsAsTrackedOnlyWhileItHelps) {
   snapshot.cameras[1].track.selected_count = 4;
   snapshot.cameras[1].track.exposure = snapshot.time / 2;
   EXPECT_EQ(trackedCameras(snapshot), 1);
+}
+
+TEST(StatusWords, ACameraThatNobodyTeachesSaysSo) {
+  EngineSnapshot snapshot;
+  snapshot.time = kNanosecondsPerSecond;
+  snapshot.camera_count = 3;
+  for (auto& camera : snapshot.cameras) camera.track.exposure = snapshot.time;
+  snapshot.cameras[0].track.selected_count = snapshot.cameras[1].track.selected_count = 4;
+  snapshot.cameras[2].estimate.status = CameraStatus::kCalibrating;
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Calibrating");
+  snapshot.cameras[1].track.selected_count = 0;
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Needs two others");
+  snapshot.cameras[2].hidden = true;
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Hidden");
+  snapshot.cameras[2].hidden = false;
+  snapshot.cameras[2].estimate.status = CameraStatus::kCalibrated;
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Calibrated");
 }
 
 TEST(StatusWords, NoReferenceOnceTheRotorsAreCut) {

@@ -6,6 +6,8 @@
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
+#include "engine/geometry/rotation.h"
+#include "engine/pipeline/first_guess.h"
 #include "ui/top_bar.h"
 
 namespace helical {
@@ -14,6 +16,12 @@ RigConfig WindowTest::shippedRig(bool images) {
   RigConfig rig = loadRig(resourceFolder() / "rigs" / "paper.toml");
   rig.simulation.images = images;
   rig.simulation.gust_factor = 0.0;
+  return rig;
+}
+
+RigConfig WindowTest::calibratingRig(bool images) {
+  RigConfig rig = shippedRig(images);
+  giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, 1, false);
   return rig;
 }
 

@@ -21,6 +21,8 @@ class WindowTest : public testing::Test {
   void TearDown() override;
 
   static RigConfig shippedRig(bool images);
+  /// Camera 3 has a first guess and finds its place in flight.
+  static RigConfig calibratingRig(bool images);
   static bool eventually(const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, kPatienceMs);
   }

@@ -10,8 +10,9 @@
 #include "ui/camera_pane.h"
 #include "ui/camera_wall.h"
 #include "ui/event_list.h"
-#include "ui/flight_plots.h"
 #include "ui/panel_title.h"
+#include "ui/plot_deck.h"
+#include "ui/preflight_popup.h"
 #include "ui/scene_view.h"
 #include "ui/top_bar.h"
 
@@ -106,7 +107,8 @@ TEST_F(WindowTest, PlotsMissNoTick) {
   open(false);
   ASSERT_TRUE(eventually([this] { return snapshot().tick > 100; }));
   EXPECT_EQ(engine_->lostTicks(), 0U);
-  for (int i = 0; i < FlightPlots::kSeries; ++i) EXPECT_GE(window_->plots().pointCount(i), 100);
+  EXPECT_TRUE(eventually(
+      [this] { return window_->plots().history().end() >= static_cast<std::int64_t>(snapshot().tick) - 1; }));
 }
 
 TEST_F(WindowTest, TheSceneTurnsWithTheMouse) {
@@ -120,6 +122,19 @@ TEST_F(WindowTest, TheSceneTurnsWithTheMouse) {
   const int frames = scene.renderedFrames();
   ASSERT_TRUE(eventually([&] { return scene.renderedFrames() >= frames + 2; }));
   EXPECT_NE(scene.grab().toImage(), before);
+}
+
+TEST_F(WindowTest, TheReadinessWordOpensThePreFlightList) {
+  open(false);
+  ASSERT_TRUE(eventually([this] { return window_->topBar().readiness() == "Ready"; }));
+  click(window_->topBar().readinessButton());
+  const PreflightPopup& list = window_->topBar().preflight();
+  ASSERT_TRUE(eventually([&] { return list.isVisible(); }));
+  EXPECT_GE(list.items().size(), 5U + static_cast<std::size_t>(snapshot().camera_count));
+  EXPECT_EQ(worstOf(list.items()), Readiness::kCaution) << "camera 3 has no place, all else is well";
+  // An open list does not keep the rotors turning.
+  QTest::keyClick(&window_->topBar().preflight(), Qt::Key_Escape);
+  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
 }
 
 TEST_F(WindowTest, EveryControlHasANameAndATip) {

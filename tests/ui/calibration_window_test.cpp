@@ -1,0 +1,116 @@
+#include <QComboBox>
+#include <QToolButton>
+
+#include "tests/ui/window_fixture.h"
+#include "ui/calibration_panel.h"
+#include "ui/camera_pane.h"
+#include "ui/camera_wall.h"
+#include "ui/event_list.h"
+#include "ui/panel_title.h"
+#include "ui/plot_deck.h"
+#include "ui/time_plots.h"
+
+namespace helical {
+namespace {
+
+class CalibrationWindow : public WindowTest {
+ protected:
+  CameraStatus status() const { return snapshot().cameras[2].estimate.status; }
+  bool admitted() {
+    return eventually([this] { return status() == CameraStatus::kCalibrated; });
+  }
+  QString method() const {
+    const char* name = snapshot().cameras[2].calibration_method;
+    return name ? QString::fromUtf8(name) : QString();
+  }
+  /// As somebody does who opens the list and clicks an entry.
+  void choose(const QString& name) {
+    QComboBox* list = window_->calibration().methods();
+    const int index = list->findText(name);
+    ASSERT_GE(index, 0) << name.toStdString();
+    list->setCurrentIndex(index);
+    Q_EMIT list->textActivated(name);
+  }
+  bool announced(const QString& text) {
+    return eventually([&] {
+      for (int i = 0; i < window_->events().count(); ++i)
+        if (window_->events().item(i)->text().contains(text)) return true;
+      return false;
+    });
+  }
+};
+
+TEST_F(CalibrationWindow, CameraThreeFindsItsPlaceAndThePlotShowsHow) {
+  open(calibratingRig(false));
+  ASSERT_TRUE(admitted());
+  EXPECT_TRUE(announced("Camera 3: calibrated"));
+  const TickHistory& history = window_->plots().history();
+  const int error = history.column(2, CameraColumn::kPositionError);
+  ASSERT_TRUE(eventually([&] { return history.end() >= static_cast<std::int64_t>(snapshot().tick) - 1; }));
+  EXPECT_NEAR(history.value(history.first(), error), 0.4, 1e-3) << "from its first guess";
+  EXPECT_LT(history.value(history.end() - 1, error), 0.1);
+  TimePlots& plots = window_->plots().sheet(PlotDeck::kCalibration);
+  EXPECT_TRUE(plots.isVisible()) << "the sheet a newcomer sees first";
+  EXPECT_TRUE(eventually([&] { return plots.pointCount(0, 0) > 10 && plots.pointCount(0, 1) > 10; }));
+  EXPECT_TRUE(eventually([&] { return window_->calibration().state(2) == "Calibrated"; }));
+  EXPECT_TRUE(eventually([&] {
+    return window_->cameras().pane(2).title().badge().startsWith("Calibrated ") &&
+           window_->cameras().pane(2).title().badge().endsWith(" mm");
+  }));
+}
+
+TEST_F(CalibrationWindow, AnotherMethodIsChosenFromTheListWhileFlying) {
+  open(calibratingRig(false));
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  ASSERT_TRUE(admitted());
+  EXPECT_EQ(method(), "particle-filter");
+  for (const QString name : {"growing-gauss-newton", "gauss-newton", "particle-filter"}) {
+    ASSERT_NO_FATAL_FAILURE(choose(name));
+    EXPECT_TRUE(eventually([&] { return method() == name; })) << name.toStdString();
+    EXPECT_TRUE(announced("calibrates anew by " + name));
+    EXPECT_EQ(snapshot().phase, FlightPhase::kFlying) << "the flight goes on";
+    EXPECT_TRUE(snapshot().pose_known);
+  }
+  EXPECT_TRUE(admitted()) << "and comes back when it has learnt";
+  EXPECT_TRUE(eventually([this] { return usesCamera(2); }));
+  EXPECT_EQ(engine_->lostTicks(), 0U);
+}
+
+TEST_F(CalibrationWindow, FliesOnTheNewCameraWithCameraTwoHidden) {
+  open(calibratingRig(false));
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  ASSERT_TRUE(admitted());
+  click(window_->cameras().pane(1).hideButton());
+  EXPECT_TRUE(eventually([this] { return !usesCamera(1) && usesCamera(0) && usesCamera(2); }));
+  const std::uint64_t since = snapshot().tick;
+  EXPECT_TRUE(eventually([&] { return snapshot().tick > since + 120; }));
+  EXPECT_EQ(snapshot().phase, FlightPhase::kFlying);
+  EXPECT_EQ(snapshot().safety, SafetyState::kNormal);
+  EXPECT_TRUE(announced("Camera 2: hidden by the operator"));
+}
+
+TEST_F(CalibrationWindow, RestartForgetsWhatWasLearnt) {
+  open(calibratingRig(false));
+  ASSERT_TRUE(admitted());
+  QToolButton* restart = nullptr;
+  for (QToolButton* button : window_->calibration().findChildren<QToolButton*>()) restart = button;
+  ASSERT_NE(restart, nullptr);
+  // The teacher is covered: what was forgotten cannot be learnt again.
+  click(window_->cameras().pane(0).hideButton());
+  ASSERT_TRUE(eventually([this] { return window_->cameras().pane(0).cameraHidden(); }));
+  click(restart);
+  EXPECT_TRUE(eventually([this] { return status() == CameraStatus::kCalibrating; }));
+  EXPECT_TRUE(announced("Camera 3: calibrates anew by particle-filter"));
+  click(window_->cameras().pane(0).hideButton());
+  EXPECT_TRUE(admitted());
+}
+
+TEST_F(CalibrationWindow, ARigWithKnownPlacesHasNothingToChoose) {
+  open(shippedRig(false));
+  EXPECT_FALSE(window_->calibration().methods()->isEnabled());
+  window_->plots().showSheet(PlotDeck::kCalibration);
+  EXPECT_TRUE(window_->plots().sheet(PlotDeck::kCalibration).isVisible());
+}
+
+}  // namespace
+}  // namespace helical

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <QWidget>
+#include <string>
+#include <vector>
+
+#include "engine/config/rig_config.h"
+#include "engine/pipeline/snapshot.h"
+
+class QComboBox;
+class QLabel;
+
+namespace helical {
+
+/// The cameras that find their place in flight: by which method, how far they are. A choice only asks; shown
+/// is what the engine says.
+class CalibrationPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  CalibrationPanel(const RigConfig& rig, const std::vector<std::string>& methods, QWidget* parent = nullptr);
+
+  void show(const EngineSnapshot& snapshot);
+  /// How many hypotheses a camera's method has; 0 for none.
+  void setHypotheses(int camera, int total);
+
+  QComboBox* methods() const { return methods_; }
+  /// The word that is shown for a camera; empty for one that is not in the list.
+  QString state(int camera) const;
+
+ Q_SIGNALS:
+  void methodChosen(const QString& method);
+  void restartRequested(helical::CameraId camera);
+
+ private:
+  struct Row {
+    int camera = 0;
+    int hypotheses = 0;
+    QLabel* state = nullptr;
+    QLabel* position_sigma = nullptr;
+    QLabel* position_error = nullptr;
+    QLabel* orientation_sigma = nullptr;
+    QLabel* orientation_error = nullptr;
+    QLabel* effective = nullptr;
+  };
+  QWidget* buildRow(const CameraConfig& config, int camera);
+  static void showRow(const Row& row, const EngineSnapshot& snapshot);
+
+  QComboBox* methods_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace helical

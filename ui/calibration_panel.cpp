@@ -148,7 +148,7 @@ void CalibrationPanel::showRow(const Row& row, const EngineSnapshot& snapshot) {
     row.orientation_error->setText(magnitude(toDegrees(error.head<3>().norm())));
   }
   row.effective->setText(
-      state.effective_sample_size > 0.0
+      state.effective_sample_size > 0.0 && row.hypotheses > 0
           ? QStringLiteral("%1/%2").arg(plainNumber(state.effective_sample_size, 0)).arg(row.hypotheses)
           : kNoValue);
 }

@@ -6,8 +6,8 @@
 namespace helical {
 namespace {
 
-constexpr int kCells = 40;         // each way
-constexpr double kUnseen = -60.0;  // px beyond the border: further out it makes no difference
+constexpr int kCells = 40;          // each way
+constexpr double kUnseen = -400.0;  // px beyond the border: further out it makes no difference
 
 /// How far inside the image a point is [px]; negative outside.
 double margin(const CoveringCamera& camera, const Eigen::Vector3d& point) {

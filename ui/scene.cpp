@@ -42,6 +42,8 @@ using shapes::rod;
 
 constexpr double kFrustumLength = 0.45;
 constexpr double kGridReach = 6.0;
+constexpr double kSeenSpread = 0.02;  // m
+constexpr double kSeenAngle = toRadians(0.75);
 
 const QColor kShell(0xd8, 0xdf, 0xe8);
 const QColor kGlass(0x1c, 0x33, 0x4a);
@@ -443,8 +445,9 @@ void Scene::showCameras(const SceneFrame& frame) {
 
 void Scene::showSpread(const CameraActors& actors, const SceneCameraPose& pose) {
   const bool shown = pose.known && pose.has_spread;
-  actors.ellipsoid->SetVisibility(shown);
-  actors.cone->SetVisibility(shown);
+  // Once they are as thin as a line they only look like one more line.
+  actors.ellipsoid->SetVisibility(shown && pose.spread_radii.maxCoeff() > kSeenSpread);
+  actors.cone->SetVisibility(shown && pose.spread_angle > kSeenAngle);
   if (!shown) return;
   const RigidTransform place{pose.spread_axes, pose.camera_from_world.inverseTranslation()};
   actors.spread->SetMatrix(matrixOf(place).data());

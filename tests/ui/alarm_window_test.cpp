@@ -1,4 +1,5 @@
 #include <QPushButton>
+#include <QToolButton>
 #include <cstdio>
 
 #include "tests/ui/window_fixture.h"

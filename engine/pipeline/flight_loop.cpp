@@ -61,7 +61,6 @@ void FlightLoop::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   const auto index = static_cast<std::size_t>(camera.index());
   if (!calibrations_[index] || !calibration) return;
   calibrations_[index].swap(calibration);
-  bounds_[index].restart();
   estimates_[index] = calibrations_[index]->estimate();
   bounds_[index].restart();
 }

@@ -63,6 +63,9 @@ class ExtrinsicCalibrator {
   /// know the names. Valid until the next call.
   virtual std::span<const LabelledPixel> named() const { return {}; }
 
+  /// Whether the estimate's covariance already includes what offsets that stay for many frames do to it.
+  virtual bool coversLastingOffsets() const { return false; }
+
   /// The hypotheses behind the estimate, for methods that have them; valid until the next call.
   virtual std::span<const WeightedPose> particles() const { return {}; }
 

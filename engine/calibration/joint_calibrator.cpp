@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/base/error.h"
@@ -20,6 +21,13 @@ constexpr double kLostBelow = 0.2;
 void validate(const JointOptions& options) {
   validate(options.search);
   validate(options.smoother);
+  const LastingOffsets& lasting = options.lasting;
+  if (!(lasting.sigma_px >= 0.0 && lasting.sigma_px <= 100.0))
+    throw Error(ErrorKind::kInput, "sigma_px of lasting offsets is " + std::to_string(lasting.sigma_px), {},
+                "give 0 (none) to 100");
+  if (!(lasting.time_s > 0.0 && lasting.time_s <= 3600.0))
+    throw Error(ErrorKind::kInput, "time_s of lasting offsets is " + std::to_string(lasting.time_s), {},
+                "give a time above 0, at most 3600 s");
   if (options.frame_units < 6 || options.frame_units > 10000)
     throw Error(ErrorKind::kInput, "frame_units of joint is " + std::to_string(options.frame_units), {},
                 "give 6 to 10000");
@@ -47,6 +55,8 @@ void JointCalibrator::forget() {
   search_.clear();
   first_ = recent_count_ = 0;
   locked_ = current_named_ = false;
+  learnt_frames_ = learnt_variance_ = 0.0;
+  learnt_from_ = learnt_to_ = 0;
   fitting_ = 1.0;
 }
 
@@ -118,13 +128,32 @@ void JointCalibrator::learn() {
       return;
     }
     smoother_.add(named_);
+    countNoise(frame);
   }
   smoother_.work(units);
   current_named_ = recent_count_ == 0;
   const Eigen::LDLT<Matrix6d> factor(smoother_.information());
   if (!factor.isPositive() || !(factor.vectorD().minCoeff() > 0.0)) return;
   estimate_.camera_from_world = smoother_.pose();
-  estimate_.covariance = factor.solve(Matrix6d::Identity());
+  estimate_.covariance = noiseInflation() * factor.solve(Matrix6d::Identity());
+}
+
+void JointCalibrator::countNoise(const UnnamedFrame& frame) {
+  if (learnt_frames_ == 0.0) learnt_from_ = frame.observation.exposure;
+  learnt_to_ = frame.observation.exposure;
+  learnt_frames_ += 1.0;
+  learnt_variance_ += 0.5 * frame.observation.centroids[0].covariance.trace();
+}
+
+/// By how much the variance of a mean over the frames is larger than independent noise would have it. The
+/// helicopter's pose comes from centroids with the same offsets, so that one factor serves for both.
+double JointCalibrator::noiseInflation() const {
+  const double time_constant = options_.lasting.time_s;
+  const double elapsed = toSeconds(learnt_to_ - learnt_from_) / time_constant;
+  if (!(elapsed > 0.0)) return 1.0;
+  const double decorrelated = 2.0 / elapsed * (1.0 - (1.0 - std::exp(-elapsed)) / elapsed);
+  const double variance = options_.lasting.sigma_px * options_.lasting.sigma_px;
+  return 1.0 + decorrelated * learnt_frames_ * learnt_frames_ * variance / learnt_variance_;
 }
 
 }  // namespace helical

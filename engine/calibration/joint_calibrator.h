@@ -8,9 +8,17 @@
 
 namespace helical {
 
+/// Errors of centroids that stay for many frames: averaging over frames does not lower them as it lowers
+/// noise. As an offset per axis whose correlation decays exponentially.
+struct LastingOffsets {
+  double sigma_px = 0.08;
+  double time_s = 1.0;
+};
+
 struct JointOptions {
   JointSearchOptions search;
   JointSmootherOptions smoother;
+  LastingOffsets lasting;
   int frame_units = 32;  ///< work in a camera frame beyond its own: frames looked at once more
 };
 
@@ -19,7 +27,8 @@ void validate(const JointOptions& options);
 
 /// Where a camera is, from centroids without names and without a guess: first JointSearch finds names and
 /// pose, then JointSmoother takes in every frame since the start, with the helicopter's pose in each frame
-/// marginalised. Reaches the Cramer-Rao bound; its covariance is that of its errors. When most centroids
+/// marginalised. Reaches the Cramer-Rao bound; its covariance is that of its errors, lasting offsets of the
+/// centroids in this and the other cameras included. When most centroids
 /// have long been somewhere else than it says (the camera was moved, or the names were wrong), it forgets all
 /// and searches again. The work for one frame is bounded in units of work, not in time, so that it repeats
 /// bit for bit.
@@ -34,6 +43,7 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   CameraEstimate estimate() const override { return estimate_; }
   bool namesCentroids() const override { return true; }
   std::span<const LabelledPixel> named() const override;
+  bool coversLastingOffsets() const override { return true; }
 
  private:
   void forget();
@@ -41,6 +51,8 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   void seek();
   void learn();
   bool lost(const UnnamedFrame& frame);
+  void countNoise(const UnnamedFrame& frame);
+  double noiseInflation() const;
 
   JointOptions options_;
   GuessSpread spread_;
@@ -52,6 +64,8 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   int first_ = 0, recent_count_ = 0;
   bool locked_ = false;
   bool current_named_ = false;
+  TimeNs learnt_from_ = 0, learnt_to_ = 0;
+  double learnt_frames_ = 0.0, learnt_variance_ = 0.0;  ///< of centroids, summed over the frames [px^2]
   double fitting_ = 1.0;  ///< running share of the balls that were found where they should be
   StoredFrame named_;     ///< the newest that the smoother took in
   RigidTransform guess_;

@@ -40,7 +40,7 @@ struct RigConfig {
   /// Cameras learn from any pose, also one that they helped to find: what the paper does after the switch.
   /// Otherwise only from a pose that other cameras vouch for.
   bool learn_from_own_pose = false;
-  std::string calibrator = "particle-filter";  ///< of cameras that have a first guess only
+  std::string calibrator = "joint";  ///< of cameras that have a first guess only
 
   /// The camera that users call `label`; throws Error(kInput) listing the rig's cameras.
   CameraId camera(const std::string& label) const;

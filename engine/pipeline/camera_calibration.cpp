@@ -3,8 +3,8 @@
 namespace helical {
 namespace {
 
-// What no method accounts for, per axis: centroids and helicopter pose have offsets that stay for many
-// frames, so that a camera's true error is some millimetres however many frames it has seen. Believed to
+// What most methods do not account for, per axis: centroids and helicopter pose have offsets that stay for
+// many frames, so that a camera's true error is some millimetres however many frames it has seen. Believed to
 // fractions of one, it would pull at the pose against the other cameras.
 constexpr double kLastingOrientation = 7e-4;  // rad
 constexpr double kLastingPosition = 2e-3;     // m
@@ -107,6 +107,7 @@ void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector
 CameraEstimate CameraCalibration::estimate() const {
   CameraEstimate result = calibrator_->estimate();
   result.status = admission_.status;
+  if (calibrator_->coversLastingOffsets()) return result;
   result.covariance.diagonal().head<3>().array() += kLastingOrientation * kLastingOrientation;
   result.covariance.diagonal().tail<3>().array() += kLastingPosition * kLastingPosition;
   return result;

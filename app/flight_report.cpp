@@ -27,7 +27,7 @@ json microseconds(TimeNs p50, TimeNs p99) {
   return {{"p50", static_cast<double>(p50) * 1e-3}, {"p99", static_cast<double>(p99) * 1e-3}};
 }
 
-/// Null but for a camera that was calibrated in flight.
+/// Null, but for the knocks, for a camera that was not calibrated in flight.
 json calibrationJson(const FlightRun& run, std::size_t index) {
   json fields;
   for (const char* key :
@@ -35,8 +35,9 @@ json calibrationJson(const FlightRun& run, std::size_t index) {
         "orientation_sigma_deg", "crlb_position_m", "crlb_orientation_deg", "nees", "bumps_detected"})
     fields[key] = nullptr;
   const CameraSnapshot& camera = run.last.cameras[index];
+  fields["bumps_detected"] = camera.knocks_found;
   if (camera.calibration_method == nullptr) return fields;
-  const CameraError error = cameraError(camera.estimate.camera_from_world, run.true_cameras[index]);
+  const CameraError error = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world);
   const double converged_s = run.score.convergedAfter(cameraId(static_cast<int>(index)));
   fields["method"] = camera.calibration_method;
   fields["time_to_1cm_s"] = converged_s >= 0.0 ? json(converged_s) : json(nullptr);
@@ -49,7 +50,7 @@ json calibrationJson(const FlightRun& run, std::size_t index) {
     fields["crlb_position_m"] = camera.calibration_bound->position_m;
     fields["crlb_orientation_deg"] = toDegrees(camera.calibration_bound->orientation_rad);
   }
-  fields["nees"] = calibrationNees(camera.estimate, run.true_cameras[index]);
+  fields["nees"] = calibrationNees(camera.estimate, camera.true_camera_from_world);
   return fields;
 }
 
@@ -145,7 +146,7 @@ std::string flightText(const FlightRun& run, const RigConfig& rig) {
                    static_cast<double>(camera.extraction_p99) * 1e-3);
     text += "\n";
     if (camera.calibration_method != nullptr) {
-      const CameraError error = cameraError(camera.estimate.camera_from_world, run.true_cameras[i]);
+      const CameraError error = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world);
       text += line("             by %s: %.1f mm and %.2f deg from its true place\n",
                    camera.calibration_method, 1e3 * error.position, toDegrees(error.orientation));
     }

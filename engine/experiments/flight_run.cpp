@@ -80,9 +80,6 @@ void landWithin(FlightPlan& plan, double session_s) {
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
                     const TickListener& listener) {
   FlightRun run;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-    run.true_cameras.push_back(trueCameraFromWorld(rig, cameraId(static_cast<int>(i))));
-  run.score.setTrueCameras(run.true_cameras);
   Operator pilot(limit_s);
   if (realtime) {
     Engine engine(rig, plan);

@@ -12,8 +12,7 @@ namespace helical {
 /// How one simulated flight went.
 struct FlightRun {
   FlightScore score;
-  std::vector<RigidTransform> true_cameras;  ///< camera_from_world, before any knock
-  EngineSnapshot last;                       ///< state at the end
+  EngineSnapshot last;  ///< state at the end
   double wall_s = 0.0;
 };
 

@@ -29,6 +29,17 @@ CameraCalibration::CameraCalibration(std::string_view method, const CameraModel&
   calibrator_->restart(guess_);
 }
 
+void CameraCalibration::restart(const RigidTransform& guess, CameraStatus status) {
+  guess_ = guess;
+  calibrator_->restart(guess_);
+  tracks_.forget();
+  search_.stop();
+  named_ = false;
+  admission_ = {};
+  admission_.status = status;
+  doubtful_since_ = -1;
+}
+
 void CameraCalibration::startSeeking(const Observation& observation, const TrackedState& helicopter) {
   named_ = false;
   search_.stop();

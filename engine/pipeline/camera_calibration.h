@@ -25,6 +25,9 @@ class CameraCalibration {
   CameraCalibration(std::string_view method, const CameraModel& camera, const MarkerLayout& markers,
                     const RigidTransform& guess, std::uint64_t seed, const CalibratorOptions& options = {});
 
+  /// Forgets everything and starts from another guess. `status` stands until the camera is admitted.
+  void restart(const RigidTransform& guess, CameraStatus status);
+
   /// One frame, and the helicopter at its exposure as the other cameras have it.
   void step(const Observation& observation, const TrackedState& helicopter);
 

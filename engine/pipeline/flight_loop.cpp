@@ -10,7 +10,6 @@ namespace {
 
 // What took longer to get here says nothing about now; used, it would keep the no-pose failsafes silent.
 constexpr TimeNs kLatest = 150 * kNanosecondsPerMillisecond;
-constexpr TimeNs kTeaching = 50 * kNanosecondsPerMillisecond;
 constexpr TimeNs kRateWindow = kNanosecondsPerSecond / 2;
 constexpr int kPercentileTicks = 30;  // percentiles cost a pass over the bins: not at every tick
 
@@ -32,104 +31,23 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
     : rig_(rig),
       tracker_(makeTracker(rig.tracker, rig.tracking, rig.markers_in_body, models(rig),
                            rig.helicopter.standing_height)),
+      control_set_(rig),
       autopilot_(plan, rig.control, rig.safety, rig.helicopter) {
   snapshot_.camera_count = static_cast<int>(rig.cameras.size());
   snapshot_.marker_count = rig.markers_in_body.count();
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const CameraConfig& camera = rig.cameras[i];
-    if (!camera.camera_from_world) continue;
-    estimates_[i].camera_from_world = *camera.camera_from_world;
-    // A pose that the rig file vouches for flies; a first guess waits for its calibration.
-    estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
-    if (camera.pose_is_guess)
-      calibrations_[i] =
-          std::make_unique<CameraCalibration>(rig.calibrator, camera.model, rig.markers_in_body,
-                                              *camera.camera_from_world, rig.simulation.seed + i);
-  }
-  const bool anybody = std::any_of(calibrations_.begin(), calibrations_.end(),
-                                   [](const auto& calibration) { return calibration != nullptr; });
-  if (anybody && !rig.learn_from_own_pose)
-    teacher_ = makeTracker(rig.tracker, rig.tracking, rig.markers_in_body, models(rig),
-                           rig.helicopter.standing_height);
-}
-
-void FlightLoop::hideCamera(CameraId camera, bool hidden) {
-  snapshot_.cameras[static_cast<std::size_t>(camera.index())].hidden = hidden;
-}
-
-void FlightLoop::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
-  const auto index = static_cast<std::size_t>(camera.index());
-  if (!calibrations_[index] || !calibration) return;
-  calibrations_[index].swap(calibration);
-  estimates_[index] = calibrations_[index]->estimate();
-  bounds_[index].restart();
-}
-
-const CameraCalibration* FlightLoop::calibration(CameraId camera) const {
-  return calibrations_[static_cast<std::size_t>(camera.index())].get();
 }
 
 void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   const TimeNs begin = stopwatch().now();
   const auto index = static_cast<std::size_t>(observation.camera.index());
   count(observation, now);
-  for (std::size_t i = 0; i < rig_.cameras.size(); ++i)
-    usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !snapshot_.cameras[i].hidden;
-  const std::size_t cameras = rig_.cameras.size();
   if (now - observation.exposure > kLatest) return;
   const TimeNs last_update = tracker_->lastUpdate();
-  tracker_->update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
-  if (teacher_ && !calibrations_[index])
-    teacher_->update(observation, {estimates_.data(), cameras}, {usable_.data(), cameras}, airborne_);
+  tracker_->update(observation, control_set_.estimates(), control_set_.usable(), airborne_);
   if (tracker_->lastUpdate() != last_update) pose_time_ = now;
-  calibrate(observation);
+  control_set_.learn(observation, *tracker_, airborne_);
   snapshot_.cameras[index].track = tracker_->track(observation.camera);
   work_since_tick_ += stopwatch().now() - begin;
-}
-
-void FlightLoop::calibrate(const Observation& observation) {
-  const auto index = static_cast<std::size_t>(observation.camera.index());
-  const Tracker& teacher = teacher_ ? *teacher_ : *tracker_;
-  if (!calibrations_[index] || snapshot_.cameras[index].hidden || !teacher.acquired()) return;
-  // The pose must come from cameras whose own pose was given, two at least. A camera that teaches itself
-  // confirms its own error, and two that were taught in flight would confirm each other's.
-  int teachers = 0;
-  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    const CameraTrack& track = teacher.track(cameraId(static_cast<int>(i)));
-    if (usable_[i] && !calibrations_[i] && track.selected_count >= 2 &&
-        observation.exposure - track.exposure < kTeaching)
-      ++teachers;
-  }
-  if (teachers < 2 && !rig_.learn_from_own_pose) return;
-  if (observation.exposure - teacher.lastUpdate() > kTeaching) return;
-  const TrackedState helicopter = teacher.predict(observation.exposure, airborne_);
-  calibrations_[index]->step(observation, helicopter);
-  estimates_[index] = calibrations_[index]->estimate();
-  addToBound(observation, helicopter.state.world_from_body);
-}
-
-void FlightLoop::addToBound(const Observation& observation, const RigidTransform& world_from_body) {
-  if (observation.count == 0) return;
-  const auto index = static_cast<std::size_t>(observation.camera.index());
-  BoundFrame frame;
-  frame.world_from_body = world_from_body;
-  frame.sigma_px = std::sqrt(0.5 * observation.centroids[0].covariance.trace());
-  // Before the camera knows the names only the number of its balls is known.
-  frame.balls = std::min(observation.count, rig_.markers_in_body.count());
-  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    const CameraTrack& track = tracker_->track(cameraId(static_cast<int>(i)));
-    if (i == index || !usable_[i] || observation.exposure - track.exposure >= kTeaching) continue;
-    std::array<MarkerId, kMaxMarkers> seen;
-    std::size_t count = 0;
-    for (int m = 0; m < rig_.markers_in_body.count(); ++m)
-      if (track.markers[static_cast<std::size_t>(m)].selected) seen[count++] = markerId(m);
-    frame.pose_information +=
-        poseInformation(rig_.cameras[i].model, estimates_[i].camera_from_world, rig_.markers_in_body,
-                        {seen.data(), count}, world_from_body, frame.sigma_px);
-  }
-  bounds_[index].add(rig_.cameras[index].model, rig_.markers_in_body,
-                     calibrations_[index]->calibrator().estimate(), frame);
-  snapshot_.cameras[index].calibration_bound = bounds_[index].bound();
 }
 
 void FlightLoop::count(const Observation& observation, TimeNs now) {
@@ -191,9 +109,14 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    snapshot_.cameras[i].estimate = estimates_[i];
-    snapshot_.cameras[i].calibration_method =
-        calibrations_[i] ? calibrations_[i]->calibrator().name() : nullptr;
+    const CameraId id = cameraId(static_cast<int>(i));
+    CameraSnapshot& camera = snapshot_.cameras[i];
+    const CameraCalibration* calibration = control_set_.calibration(id);
+    camera.estimate = control_set_.estimates()[i];
+    camera.hidden = control_set_.hidden(id);
+    camera.calibration_method = calibration != nullptr ? calibration->calibrator().name() : nullptr;
+    camera.calibration_bound = control_set_.bound(id);
+    camera.knocks_found = control_set_.knocksFound(id);
   }
 }
 

@@ -3,10 +3,9 @@
 #include <array>
 
 #include "engine/base/latency_histogram.h"
-#include "engine/calibration/live_bound.h"
 #include "engine/config/rig_config.h"
 #include "engine/flight/autopilot.h"
-#include "engine/pipeline/camera_calibration.h"
+#include "engine/pipeline/control_set.h"
 #include "engine/pipeline/snapshot.h"
 #include "engine/tracking/tracker.h"
 
@@ -26,13 +25,13 @@ class FlightLoop {
   const StickDemand& onTick(TimeNs now, const OperatorCommands& commands);
 
   /// The operator hides a camera: its observations count as frames, but nothing they show is used.
-  void hideCamera(CameraId camera, bool hidden);
+  void hideCamera(CameraId camera, bool hidden) { control_set_.hide(camera, hidden); }
 
-  /// Puts another calibration in the place of a camera's own and hands that back: the camera leaves the
-  /// control set until the new one is admitted. For cameras that have one; allocates and frees nothing.
-  void swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration);
-  /// Null for a camera whose pose was given.
-  const CameraCalibration* calibration(CameraId camera) const;
+  /// As ControlSet has them.
+  void swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
+    control_set_.swapCalibration(camera, calibration);
+  }
+  const CameraCalibration* calibration(CameraId camera) const { return control_set_.calibration(camera); }
 
   /// State after the last tick.
   const EngineSnapshot& snapshot() const { return snapshot_; }
@@ -45,22 +44,15 @@ class FlightLoop {
     std::uint64_t window_frames = 0;
     TimeNs unused_arrival = -1;  ///< of the newest frame that no command has used yet
   };
-  void calibrate(const Observation& observation);
-  void addToBound(const Observation& observation, const RigidTransform& world_from_body);
   void count(const Observation& observation, TimeNs now);
   void measureRates(TimeNs now);
   void fillSnapshot(TimeNs now, const AutopilotOutput& output);
 
   RigConfig rig_;
   std::unique_ptr<Tracker> tracker_;
-  std::unique_ptr<Tracker> teacher_;  ///< sees with given poses alone; null when nobody learns from it
+  ControlSet control_set_;
   Autopilot autopilot_;
   EngineSnapshot snapshot_;
-  std::array<CameraEstimate, kMaxCameras> estimates_;
-  std::array<std::unique_ptr<CameraCalibration>, kMaxCameras>
-      calibrations_;  ///< of cameras with a first guess
-  std::array<LiveBound, kMaxCameras> bounds_;
-  std::array<bool, kMaxCameras> usable_{};
   std::array<CameraCounters, kMaxCameras> counters_;
   std::array<LatencyHistogram, kMaxCameras> extraction_time_;
   LatencyHistogram server_time_;

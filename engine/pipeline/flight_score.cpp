@@ -49,10 +49,10 @@ void FlightScore::add(const EngineSnapshot& tick) {
 }
 
 void FlightScore::addCalibration(const EngineSnapshot& tick) {
-  for (std::size_t c = 0; c < true_cameras_.size(); ++c) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(tick.camera_count); ++c) {
     const CameraSnapshot& camera = tick.cameras[c];
-    if (camera.calibration_method == nullptr || converged_s_[c] >= 0.0) continue;
-    const CameraError error = cameraError(camera.estimate.camera_from_world, true_cameras_[c]);
+    if (camera.calibration_method == nullptr || !camera.has_truth || converged_s_[c] >= 0.0) continue;
+    const CameraError error = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world);
     if (error.position < 0.01 && error.orientation < toRadians(0.5)) converged_s_[c] = toSeconds(tick.time);
   }
 }

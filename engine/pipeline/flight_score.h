@@ -45,10 +45,6 @@ class FlightScore {
   std::uint64_t neesSamples() const { return nees_samples_; }
   /// Share of a camera's markers that were used while the rotors turned, 0..1.
   double selectedShare(CameraId camera) const;
-  /// Tells where the cameras truly are, for `convergedAfter`.
-  void setTrueCameras(std::vector<RigidTransform> camera_from_world) {
-    true_cameras_ = std::move(camera_from_world);
-  }
   /// When a camera that is calibrated in flight first was within 1 cm and 0.5 degrees [s]; negative if never.
   double convergedAfter(CameraId camera) const {
     return converged_s_[static_cast<std::size_t>(camera.index())];
@@ -71,7 +67,6 @@ class FlightScore {
   std::array<std::uint64_t, kMaxCameras> selected_{};
   std::array<std::uint64_t, kMaxCameras> shown_{};
   std::array<TimeNs, kMaxCameras> last_exposure_{};
-  std::vector<RigidTransform> true_cameras_;
   std::array<double, kMaxCameras> converged_s_ = [] {
     std::array<double, kMaxCameras> never{};
     never.fill(-1.0);

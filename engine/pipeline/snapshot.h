@@ -27,6 +27,7 @@ struct CameraSnapshot {
   bool hidden = false;                                ///< by the operator: its observations are thrown away
   int boards = 0;                                     ///< before it, put there by the operator
   std::uint32_t knocks = 0;                           ///< by the operator, so far
+  int knocks_found = 0;                               ///< how often it was found to have been moved
   std::uint64_t frames = 0;                           ///< received
   std::uint64_t dropped = 0;                          ///< missing in the sequence
   double frames_per_second = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/check.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -31,6 +32,12 @@ LatestImagesTracker::LatestImagesTracker(const MarkerLayout& markers, std::vecto
       acquisition_(markers, cameras_) {
   for (std::size_t c = 0; c < cameras_.size(); ++c)
     views_.push_back({LabelKeeper({}, markers_.count()), {}, {}, false, {}});
+}
+
+void LatestImagesTracker::adopt(const Tracker& other) {
+  const auto* const same = dynamic_cast<const LatestImagesTracker*>(&other);
+  HELICAL_CHECK(same != nullptr && same->cameras_.size() == cameras_.size());
+  *this = *same;
 }
 
 TrackedState LatestImagesTracker::predict(TimeNs time, bool) const {
@@ -178,10 +185,12 @@ void LatestImagesTracker::report(std::size_t camera, const CameraEstimate& estim
         cameras_[camera].project(estimate.camera_from_world * (pose * markers_.inBody(markerId(m))));
     if (pixel) {
       marker.predicted = true;
+      view.track.predicted_count += cameras_[camera].contains(*pixel);
       marker.reprojected = *pixel;
     }
     if (view.names[index] < 0) continue;
-    marker.observed = marker.selected = true;
+    marker.observed = marker.agrees = marker.selected = true;  // it has no gates in 3D
+    ++view.track.agreeing_count;
     marker.pixel = view.newest.centroids[static_cast<std::size_t>(view.names[index])].pixel;
     ++view.track.selected_count;
     if (pixel) squares += (marker.pixel - *pixel).squaredNorm();

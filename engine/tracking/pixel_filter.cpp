@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/check.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -51,6 +52,12 @@ PixelFilter::PixelFilter(const TrackerOptions& options, const MarkerLayout& mark
       noise_({options.acceleration_noise_lateral, options.acceleration_noise_vertical,
               options.spin_noise_tilt, options.spin_noise_yaw}),
       acquisition_(markers, cameras_) {}
+
+void PixelFilter::adopt(const Tracker& other) {
+  const auto* const same = dynamic_cast<const PixelFilter*>(&other);
+  HELICAL_CHECK(same != nullptr && same->cameras_.size() == cameras_.size());
+  *this = *same;
+}
 
 TrackedState PixelFilter::predict(TimeNs time, bool airborne) const {
   TrackedState result{time, state_, Matrix6d::Identity()};
@@ -228,16 +235,15 @@ void PixelFilter::select(CameraId camera, const CameraEstimate& estimate, Featur
   const auto count = static_cast<std::size_t>(markers_.count());
   auto& probation = probation_[static_cast<std::size_t>(camera.index())];
   const Matrix6d pose_covariance = poseBlock(covariance_);
-  std::array<bool, kMaxMarkers> agreed{};
   for (std::size_t m = 0; m < count; ++m) {
     Feature& feature = features[m];
     if (!feature.selected) continue;
     const Eigen::Matrix2d s = feature.d_pose * pose_covariance * feature.d_pose.transpose() +
                               feature.d_camera * estimate.covariance * feature.d_camera.transpose() +
                               feature.noise;
-    agreed[m] = feature.innovation.dot(s.ldlt().solve(feature.innovation)) < options_.gate_chi2;
-    feature.selected = agreed[m] && probation[m] == 0;
-    if (!agreed[m])
+    feature.agrees = feature.innovation.dot(s.ldlt().solve(feature.innovation)) < options_.gate_chi2;
+    feature.selected = feature.agrees && probation[m] == 0;
+    if (!feature.agrees)
       probation[m] = kProbation;
     else if (probation[m] > 0)
       --probation[m];
@@ -343,7 +349,11 @@ void PixelFilter::report(const Observation& observation, const CameraEstimate& e
         camera.project(estimate.camera_from_world * (state_.world_from_body * markers_.inBody(markerId(m))));
     marker.predicted = pixel.has_value();
     if (pixel) marker.reprojected = *pixel;
-    marker.selected = features[static_cast<std::size_t>(m)].selected;
+    const Feature& feature = features[static_cast<std::size_t>(m)];
+    marker.agrees = feature.agrees;
+    marker.selected = feature.selected;
+    track.predicted_count += feature.prediction.visible;
+    track.agreeing_count += feature.agrees;
     if (!marker.selected || !pixel) continue;
     ++track.selected_count;
     cost += (marker.pixel - *pixel).squaredNorm();

@@ -26,6 +26,7 @@ class PixelFilter final : public Tracker {
   /// Observations of different cameras may come out of order by 30 ms; older ones are not used.
   void update(const Observation& observation, std::span<const CameraEstimate> cameras,
               std::span<const bool> usable, bool airborne) override;
+  void adopt(const Tracker& other) override;
   bool acquired() const override { return acquired_; }
   TimeNs lastUpdate() const override { return last_update_; }
   /// The covariance includes what offsets of the centroids that stay for many frames may do: averaging over
@@ -43,6 +44,7 @@ class PixelFilter final : public Tracker {
     Jacobian d_camera = Jacobian::Zero();
     Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
     Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
+    bool agrees = false;  ///< inside the gate
     bool selected = false;
   };
   using Features = std::array<Feature, kMaxMarkers>;

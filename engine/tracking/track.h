@@ -23,6 +23,7 @@ struct TrackedState {
 /// How one marker fared in one camera's newest frame.
 struct MarkerTrack {
   bool observed = false;                                  ///< a centroid was named after it
+  bool agrees = false;                                    ///< and lay inside the gate of its prediction
   bool selected = false;                                  ///< and that centroid was used for the pose
   bool predicted = false;                                 ///< `reprojected` is valid
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();        ///< the centroid
@@ -32,6 +33,8 @@ struct MarkerTrack {
 /// What the tracker made of one observation.
 struct CameraTrack {
   TimeNs exposure = 0;
+  int predicted_count = 0;  ///< balls that should be in the image
+  int agreeing_count = 0;
   int selected_count = 0;
   double residual_px = 0.0;  ///< RMS per axis of the selected ones, after the update; 0 when none
   std::array<MarkerTrack, kMaxMarkers> markers{};

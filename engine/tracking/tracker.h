@@ -24,6 +24,9 @@ class Tracker {
   virtual void update(const Observation& observation, std::span<const CameraEstimate> cameras,
                       std::span<const bool> usable, bool airborne) = 0;
 
+  /// Goes on from where another tracker of the same kind and rig is.
+  virtual void adopt(const Tracker& other) = 0;
+
   /// Whether a pose was ever found.
   virtual bool acquired() const = 0;
   /// Exposure time of the last observation that was used.

@@ -1,0 +1,22 @@
+#include "engine/calibration/knock_detector.h"
+
+#include <algorithm>
+
+namespace helical {
+namespace {
+
+constexpr int kFewestInView = 3;  // of fewer balls two outliers are a majority
+constexpr int kAgreeing = 2;      // fewer than so many balls in place: the camera disagrees
+
+}  // namespace
+
+bool KnockDetector::add(const KnockEvidence& evidence) {
+  if (evidence.in_view < kFewestInView || !evidence.pose_is_sure) return false;
+  // One frame of agreement outweighs two of disagreement: a knocked camera agrees in none.
+  balance_ = evidence.agreeing < kAgreeing ? balance_ + 1 : std::max(0, balance_ - 2);
+  if (balance_ < options_.disagreeing_frames) return false;
+  balance_ = 0;
+  return true;
+}
+
+}  // namespace helical

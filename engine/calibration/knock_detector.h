@@ -1,0 +1,37 @@
+#pragma once
+
+#include "engine/base/time.h"
+
+namespace helical {
+
+struct KnockDetectorOptions {
+  int disagreeing_frames = 6;  ///< more of them than agreeing ones, in a row or nearly so: a knock
+};
+
+/// What one frame says about whether its camera stands where it stood.
+struct KnockEvidence {
+  TimeNs exposure = 0;
+  int in_view = 0;   ///< balls that this camera should and could show: the fewer of predicted and found
+  int agreeing = 0;  ///< of those, the ones that lie where the pose says
+  bool pose_is_sure = false;  ///< another camera agrees with the pose, or others outnumber this one
+};
+
+/// Tells a knocked camera from one that is covered, confused by a few false markers or ahead of a pose that
+/// is itself in doubt: it shows the balls, in a place where the others say they are not, frame after frame.
+/// Whoever jumps first is the odd one out, for the pose has just been predicted from all of them. Pure
+/// counting: no threshold in pixels but the tracker's own gates, so that nothing drifts into an alarm. One
+/// thread.
+class KnockDetector {
+ public:
+  explicit KnockDetector(const KnockDetectorOptions& options = {}) : options_(options) {}
+
+  /// True in the frame in which the camera is found knocked; counting starts anew then.
+  bool add(const KnockEvidence& evidence);
+  void restart() { balance_ = 0; }
+
+ private:
+  KnockDetectorOptions options_;
+  int balance_ = 0;
+};
+
+}  // namespace helical

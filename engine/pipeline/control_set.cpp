@@ -1,0 +1,171 @@
+#include "engine/pipeline/control_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace helical {
+namespace {
+
+constexpr TimeNs kTeaching = 50 * kNanosecondsPerMillisecond;  // a view is of now for so long
+constexpr int kTeachers = 2;
+constexpr int kSureBalls = 3;  // that another camera sees where the pose says: then it is not the pose
+
+}  // namespace
+
+ControlSet::ControlSet(const RigConfig& rig)
+    : cameras_(rig.cameras.size()),
+      markers_(rig.markers_in_body),
+      learn_from_own_pose_(rig.learn_from_own_pose) {
+  for (const CameraConfig& camera : rig.cameras) models_.push_back(camera.model);
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    const CameraConfig& camera = rig.cameras[i];
+    if (!camera.camera_from_world) continue;
+    estimates_[i].camera_from_world = *camera.camera_from_world;
+    // A pose that the rig file vouches for flies; a first guess waits for its calibration.
+    estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
+    learning_[i] = camera.pose_is_guess;
+    rank_[i] = camera.pose_is_guess ? 1 : 0;
+    calibrations_[i] = std::make_unique<CameraCalibration>(
+        rig.calibrator, camera.model, markers_, *camera.camera_from_world, rig.simulation.seed + i);
+  }
+  // A rank for each camera that may be knocked, one after the other.
+  for (std::size_t r = 0; r <= cameras_ + 1; ++r)
+    teachers_.push_back(
+        makeTracker(rig.tracker, rig.tracking, markers_, models_, rig.helicopter.standing_height));
+  refreshUsable();
+}
+
+void ControlSet::hide(CameraId camera, bool hidden) {
+  hidden_[indexOf(camera)] = hidden;
+  refreshUsable();
+}
+
+void ControlSet::refreshUsable() {
+  for (std::size_t i = 0; i < cameras_; ++i)
+    usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !hidden_[i];
+}
+
+void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
+  const std::size_t index = indexOf(camera);
+  if (!calibrations_[index] || !calibration) return;
+  calibrations_[index].swap(calibration);
+  if (!learning_[index]) return;
+  estimates_[index] = calibrations_[index]->estimate();
+  bounds_[index].restart();
+  refreshUsable();
+}
+
+const CameraCalibration* ControlSet::calibration(CameraId camera) const {
+  return learning_[indexOf(camera)] ? calibrations_[indexOf(camera)].get() : nullptr;
+}
+
+void ControlSet::learn(const Observation& observation, const Tracker& tracker, bool airborne) {
+  const std::size_t index = indexOf(observation.camera);
+  if (usable_[index] && isKnocked(observation, tracker)) takeOut(index, tracker);
+  teachOthers(observation, airborne);
+  if (learning_[index] && !hidden_[index]) teach(observation, tracker, airborne);
+  refreshUsable();
+}
+
+bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracker) {
+  const std::size_t index = indexOf(observation.camera);
+  const CameraTrack& track = tracker.track(observation.camera);
+  KnockEvidence evidence;
+  evidence.exposure = observation.exposure;
+  evidence.in_view = std::min(observation.count, track.predicted_count);
+  evidence.agreeing = track.agreeing_count;
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    const CameraTrack& other = tracker.track(cameraId(static_cast<int>(i)));
+    if (i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
+        observation.exposure - other.exposure < kTeaching)
+      evidence.pose_is_sure = true;
+  }
+  return detectors_[index].add(evidence);
+}
+
+void ControlSet::takeOut(std::size_t camera, const Tracker& tracker) {
+  ++knocks_found_[camera];
+  int highest = 0;
+  for (std::size_t i = 0; i < cameras_; ++i)
+    if (i != camera) highest = std::max(highest, rank_[i]);
+  const bool taught = somebodyLearnsAt(highest + 1);
+  rank_[camera] = highest + 1;
+  learning_[camera] = true;
+  // Who teaches it starts from what all of them knew up to now.
+  if (!taught) teachers_[static_cast<std::size_t>(highest + 1)]->adopt(tracker);
+  closeRanks();
+  calibrations_[camera]->restart(estimates_[camera].camera_from_world, CameraStatus::kRejected);
+  estimates_[camera] = calibrations_[camera]->estimate();
+  bounds_[camera].restart();
+  refreshUsable();
+}
+
+void ControlSet::closeRanks() {
+  std::array<bool, kMaxCameras + 2> taken{};
+  for (std::size_t i = 0; i < cameras_; ++i) taken[static_cast<std::size_t>(rank_[i])] = true;
+  taken[0] = true;  // who has rank 0 was never taught: nobody moves there
+  int next = 1;
+  for (int r = 1; r < static_cast<int>(teachers_.size()); ++r) {
+    if (!taken[static_cast<std::size_t>(r)]) continue;
+    std::swap(teachers_[static_cast<std::size_t>(next)], teachers_[static_cast<std::size_t>(r)]);
+    for (std::size_t i = 0; i < cameras_; ++i)
+      if (rank_[i] == r) rank_[i] = next;
+    ++next;
+  }
+}
+
+bool ControlSet::somebodyLearnsAt(int rank) const {
+  for (std::size_t i = 0; i < cameras_; ++i)
+    if (learning_[i] && rank_[i] == rank) return true;
+  return false;
+}
+
+void ControlSet::teachOthers(const Observation& observation, bool airborne) {
+  if (learn_from_own_pose_) return;
+  const int rank = rank_[indexOf(observation.camera)];
+  for (int r = rank + 1; r < static_cast<int>(teachers_.size()); ++r)
+    if (somebodyLearnsAt(r))
+      teachers_[static_cast<std::size_t>(r)]->update(observation, estimates(), usable(), airborne);
+}
+
+void ControlSet::teach(const Observation& observation, const Tracker& tracker, bool airborne) {
+  const std::size_t index = indexOf(observation.camera);
+  const Tracker& teacher =
+      learn_from_own_pose_ ? tracker : *teachers_[static_cast<std::size_t>(rank_[index])];
+  if (!teacher.acquired() || observation.exposure - teacher.lastUpdate() > kTeaching) return;
+  int views = 0;
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    const CameraTrack& track = teacher.track(cameraId(static_cast<int>(i)));
+    views += usable_[i] && rank_[i] < rank_[index] && track.selected_count >= 2 &&
+             observation.exposure - track.exposure < kTeaching;
+  }
+  if (views < kTeachers && !learn_from_own_pose_) return;
+  const TrackedState helicopter = teacher.predict(observation.exposure, airborne);
+  calibrations_[index]->step(observation, helicopter);
+  estimates_[index] = calibrations_[index]->estimate();
+  addToBound(observation, tracker, helicopter.state.world_from_body);
+}
+
+void ControlSet::addToBound(const Observation& observation, const Tracker& tracker,
+                            const RigidTransform& world_from_body) {
+  if (observation.count == 0) return;
+  const std::size_t index = indexOf(observation.camera);
+  BoundFrame frame;
+  frame.world_from_body = world_from_body;
+  frame.sigma_px = std::sqrt(0.5 * observation.centroids[0].covariance.trace());
+  // Before the camera knows the names only the number of its balls is known.
+  frame.balls = std::min(observation.count, markers_.count());
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    const CameraTrack& track = tracker.track(cameraId(static_cast<int>(i)));
+    if (i == index || !usable_[i] || observation.exposure - track.exposure >= kTeaching) continue;
+    std::array<MarkerId, kMaxMarkers> seen;
+    std::size_t count = 0;
+    for (int m = 0; m < markers_.count(); ++m)
+      if (track.markers[static_cast<std::size_t>(m)].selected) seen[count++] = markerId(m);
+    frame.pose_information += poseInformation(models_[i], estimates_[i].camera_from_world, markers_,
+                                              {seen.data(), count}, world_from_body, frame.sigma_px);
+  }
+  bounds_[index].add(models_[index], markers_, calibrations_[index]->calibrator().estimate(), frame);
+}
+
+}  // namespace helical

@@ -9,6 +9,7 @@ void addExperimentCommand(CLI::App& app, int& exit_code) {
   experiments->require_subcommand(1);
   addCorrespondenceExperiment(*experiments, exit_code);
   addMatsukawa2010Experiment(*experiments, exit_code);
+  addCalibrationExperiment(*experiments, exit_code);
 }
 
 }  // namespace helical

@@ -16,4 +16,7 @@ void addCorrespondenceExperiment(CLI::App& experiments, int& exit_code);
 /// Adds `matsukawa2010` to the group: the paper's experiments over many seeds, its table and figures.
 void addMatsukawa2010Experiment(CLI::App& experiments, int& exit_code);
 
+/// Adds `calibration` to the group: how near every method comes to the Cramer-Rao bound, and how fast.
+void addCalibrationExperiment(CLI::App& experiments, int& exit_code);
+
 }  // namespace helical

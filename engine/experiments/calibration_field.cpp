@@ -1,0 +1,240 @@
+#include "engine/experiments/calibration_field.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/random.h"
+#include "engine/geometry/camera_perturbation.h"
+#include "engine/geometry/rotation.h"
+#include "engine/tracking/pose_fit.h"
+
+namespace helical {
+namespace {
+
+constexpr double kOutlierReachPx = 80.0;
+constexpr double kStandingHeight = 0.06;
+constexpr double kNamingSigmaPx = 6.0;  // how far a ball may be from where the last poses put it
+constexpr double kNamingGateChi2 = 14.0;
+constexpr double kRobustSigmas = 4.0;
+constexpr double kInlierSigmas = 5.0;
+constexpr int kFewestInliers = 5;
+constexpr int kLongestCoast = 30;  // frames, after which any pose near the last one may be found again
+
+/// Twice low-pass filtered noise.
+class Wander {
+ public:
+  Wander(double size, double time_constant_s, double rate_hz)
+      : size_(size),
+        keep_(std::exp(-1.0 / rate_hz / time_constant_s)),
+        follow_(1.0 - std::exp(-1.0 / rate_hz / (0.6 * time_constant_s))) {}
+  double next(Random& random) {
+    fast_ = keep_ * fast_ + std::sqrt(1.0 - keep_ * keep_) * random.normal();
+    slow_ += (fast_ - slow_) * follow_;
+    return 1.26 * size_ * slow_;
+  }
+
+ private:
+  double size_, keep_, follow_, fast_ = 0.0, slow_ = 0.0;
+};
+
+double smoothStep(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * (3.0 - 2.0 * u);
+}
+
+Eigen::Vector3d randomDirection(Random& random) {
+  return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+}
+
+RigidTransform placeCamera(double azimuth, Random& random) {
+  azimuth += toRadians(random.uniform(-15.0, 15.0));
+  const double elevation = toRadians(random.uniform(30.0, 50.0));
+  const Eigen::Vector3d away(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                             std::sin(elevation));
+  const Eigen::Vector3d centre = Eigen::Vector3d(0, 0, 0.3) + random.uniform(2.3, 3.2) * away;
+  const Eigen::Vector3d target(0.1 * random.normal(), 0.1 * random.normal(), 0.3);
+  const Eigen::Vector3d z = (target - centre).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d rows;
+  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
+  RigidTransform pose;
+  pose.rotation = (expSO3({0, 0, toRadians(3.0) * random.normal()}) * Eigen::Quaterniond(rows)).normalized();
+  pose.translation = -(pose.rotation * centre);
+  return pose;
+}
+
+std::vector<RigidTransform> fly(const CalibrationFieldOptions& options, Random random) {
+  const double rate = options.rate_hz;
+  std::array<Wander, 6> wander{Wander(0.04, 1.0, rate),           Wander(0.04, 1.0, rate),
+                               Wander(0.015, 1.0, rate),          Wander(toRadians(2.5), 0.4, rate),
+                               Wander(toRadians(2.5), 0.4, rate), Wander(toRadians(6.0), 2.0, rate)};
+  const double start_yaw = random.uniform(-0.2, 0.2);
+  std::vector<RigidTransform> poses;
+  for (int k = static_cast<int>(-5.0 * rate); k < static_cast<int>(options.duration_s * rate); ++k) {
+    std::array<double, 6> w;
+    for (std::size_t i = 0; i < 6; ++i) w[i] = wander[i].next(random);
+    if (k < 0) continue;
+    const double height = 0.6 * smoothStep((k / rate - 1.0) / 3.0);
+    const double free = std::min(1.0, height / 0.1);
+    RigidTransform pose;
+    pose.translation = {w[0] * free, w[1] * free, height + kStandingHeight + w[2] * free};
+    pose.rotation = expSO3({0, 0, start_yaw + w[5] * free}) * expSO3({w[3] * free, w[4] * free, 0});
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+/// What one camera finds of the balls, in an order of its own, and which they are.
+struct Look {
+  Observation observation;
+  std::array<MarkerId, kMaxMarkers> truth;
+};
+
+class Eye {
+ public:
+  Eye(const CameraModel& camera, const RigidTransform& camera_from_world, Random random)
+      : camera_(camera), camera_from_world_(camera_from_world), random_(random) {}
+
+  Look look(const RigidTransform& world_from_body, const CalibrationFieldOptions& options) {
+    Look look;
+    const int balls = options.markers.count();
+    const auto first = static_cast<int>(random_.uniform() * balls);
+    for (int i = 0; i < balls; ++i) add(markerId((first + i) % balls), world_from_body, options, look);
+    return look;
+  }
+  const RigidTransform& pose() const { return camera_from_world_; }
+
+ private:
+  void add(MarkerId marker, const RigidTransform& world_from_body, const CalibrationFieldOptions& options,
+           Look& look) {
+    const Eigen::Vector3d in_body = options.true_markers.empty()
+                                        ? options.markers.inBody(marker)
+                                        : options.true_markers[static_cast<std::size_t>(marker.index())];
+    const auto pixel = camera_.project(camera_from_world_ * (world_from_body * in_body));
+    const Eigen::Vector2d noise(random_.normal(), random_.normal());
+    const bool dropped = random_.uniform() < options.drop_outs;
+    const bool thrown = random_.uniform() < options.outliers;
+    const Eigen::Vector2d aside(random_.uniform(-kOutlierReachPx, kOutlierReachPx),
+                                random_.uniform(-kOutlierReachPx, kOutlierReachPx));
+    if (!pixel || !camera_.contains(*pixel) || dropped) return;
+    const auto index = static_cast<std::size_t>(look.observation.count++);
+    look.truth[index] = marker;
+    Centroid& centroid = look.observation.centroids[index];
+    centroid.pixel = *pixel + (thrown ? aside : Eigen::Vector2d(options.sigma_px * noise));
+    centroid.covariance = options.sigma_px * options.sigma_px * Eigen::Matrix2d::Identity();
+  }
+
+  CameraModel camera_;
+  RigidTransform camera_from_world_;
+  Random random_;
+};
+
+/// The helicopter's pose from the calibrated cameras, frame by frame; what it remembers serves to name the
+/// balls only.
+class PoseSource {
+ public:
+  PoseSource(const CameraModel& camera, const CalibrationFieldOptions& options)
+      : camera_(camera), options_(options) {
+    last_.translation.z() = kStandingHeight;
+  }
+
+  PoseFit fit(const std::array<Eye, 2>& eyes, const std::array<Look, 2>& looks) {
+    RigidTransform predicted = last_;
+    predicted.translation += velocity_;
+    const bool lost = coasted_ < 0 || coasted_ > kLongestCoast;
+    const double slack = lost ? 4.0 : 1.0 + 0.3 * coasted_;
+    std::array<NamedView, 2> views;
+    for (std::size_t c = 0; c < 2; ++c)
+      views[c] = {&camera_, eyes[c].pose(), &looks[c].observation,
+                  names(eyes[c].pose(), predicted, looks[c].observation, slack * kNamingSigmaPx)};
+    const double sigma = options_.sigma_px;
+    PoseFit fit = fitPose(views, options_.markers, predicted, 4.0 * kRobustSigmas * slack * sigma, 10,
+                          kInlierSigmas * sigma);
+    fit = fitPose(views, options_.markers, fit.world_from_body, kRobustSigmas * sigma, 15,
+                  kInlierSigmas * sigma);
+    fit.ok = fit.ok && fit.inliers >= kFewestInliers && 2 * fit.inliers > fit.named;
+    remember(fit);
+    return fit;
+  }
+
+ private:
+  Names names(const RigidTransform& camera_from_world, const RigidTransform& world_from_body,
+              const Observation& observation, double sigma_px) const {
+    std::array<MarkerPrediction, kMaxMarkers> predictions;
+    for (int m = 0; m < options_.markers.count(); ++m) {
+      const auto pixel =
+          camera_.project(camera_from_world * (world_from_body * options_.markers.inBody(markerId(m))));
+      if (!pixel) continue;
+      predictions[static_cast<std::size_t>(m)] = {true, *pixel,
+                                                  sigma_px * sigma_px * Eigen::Matrix2d::Identity(), 0.0};
+    }
+    return nameByPrediction({predictions.data(), static_cast<std::size_t>(options_.markers.count())},
+                            observation, kNamingGateChi2);
+  }
+
+  void remember(const PoseFit& fit) {
+    if (!fit.ok) {
+      coasted_ += coasted_ >= 0;
+      return;
+    }
+    const Eigen::Vector3d moved = fit.world_from_body.translation - last_.translation;
+    velocity_ = coasted_ == 0 ? Eigen::Vector3d(0.7 * velocity_ + 0.3 * moved) : Eigen::Vector3d::Zero();
+    last_ = fit.world_from_body;
+    coasted_ = 0;
+  }
+
+  const CameraModel& camera_;
+  const CalibrationFieldOptions& options_;
+  RigidTransform last_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< m per frame
+  int coasted_ = -1;                                    ///< frames since the last pose; negative: never any
+};
+
+std::span<const MarkerId> seenBy(const Look& look) {
+  return {look.truth.data(), static_cast<std::size_t>(look.observation.count)};
+}
+
+}  // namespace
+
+CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationFieldOptions& options) {
+  const Random random(seed);
+  Random places = random.fork(1);
+  CalibrationField field;
+  field.camera = CameraModel(640, 480, 567.6, 567.6, 319.5, 239.5);
+  std::array<Eye, 2> eyes{Eye(field.camera, placeCamera(-kPi / 4, places), random.fork(2)),
+                          Eye(field.camera, placeCamera(kPi / 4, places), random.fork(3))};
+  field.camera_from_world = placeCamera(kPi, places);
+  Eye learner(field.camera, field.camera_from_world, random.fork(4));
+  Vector6d off;
+  off.head<3>() = options.guess_rotation * randomDirection(places);
+  off.tail<3>() = options.guess_position * randomDirection(places);
+  field.guess = perturbCamera(field.camera_from_world, off);
+
+  PoseSource poses(field.camera, options);
+  CramerRaoBound bound;
+  for (const RigidTransform& truth : fly(options, random.fork(5))) {
+    CalibrationField::Frame& frame = field.frames.emplace_back();
+    const std::array<Look, 2> looks{eyes[0].look(truth, options), eyes[1].look(truth, options)};
+    const Look own = learner.look(truth, options);
+    frame.observation = own.observation;
+    frame.observation.exposure = fromSeconds(static_cast<double>(field.frames.size()) / options.rate_hz);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(own.observation.count); ++i)
+      frame.labelled[i] = {own.truth[i], own.observation.centroids[i].pixel,
+                           own.observation.centroids[i].covariance};
+    const PoseFit fit = poses.fit(eyes, looks);
+    frame.has_pose = fit.ok;
+    frame.world_from_body = fit.world_from_body;
+    if (fit.ok) frame.pose_covariance = options.sigma_px * options.sigma_px * fit.information.inverse();
+    Matrix6d information = Matrix6d::Zero();
+    for (std::size_t c = 0; c < 2; ++c)
+      information += poseInformation(field.camera, eyes[c].pose(), options.markers, seenBy(looks[c]), truth,
+                                     options.sigma_px);
+    bound.add(field.camera, field.camera_from_world, options.markers, seenBy(own), truth, information,
+              options.sigma_px);
+    if (const auto now = bound.bound()) frame.bound = *now;
+  }
+  return field;
+}
+
+}  // namespace helical

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "app/bench_markers.h"
+#include "app/bench_particles.h"
 
 namespace {
 
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
   CLI::App app("Helical's benchmarks: side by side in one process, medians of the thread's processor time",
                "helical-bench");
   helical::addMarkersBench(app);
+  helical::addParticlesBench(app);
   app.require_subcommand(1);
   try {
     app.parse(argc, argv);

@@ -113,7 +113,7 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["server_us"] = microseconds(run.last.server_p50, run.last.server_p99);
   report["frame_to_command_us"] = microseconds(run.last.frame_to_command_p50, run.last.frame_to_command_p99);
   report["failsafes"] = failsafeNames(score.failsafes());
-  report["session"] = nullptr;
+  report["session"] = run.session.empty() ? json(nullptr) : json(run.session);
   return report.dump(2);
 }
 

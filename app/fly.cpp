@@ -11,13 +11,16 @@
 #include "app/option_values.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 #include "engine/calibration/calibrator_factory.h"
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
+#include "engine/config/text_file.h"
 #include "engine/experiments/flight_run.h"
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/first_guess.h"
+#include "engine/session/recorder.h"
 
 namespace helical {
 namespace {
@@ -35,6 +38,7 @@ struct FlyArguments {
   bool no_images = false;
   bool realtime = false;
   bool json = false;
+  std::string session;
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
   std::vector<std::string> uncalibrated;
@@ -110,18 +114,47 @@ std::string knownCalibrators() {
   return names;
 }
 
+/// Null when nobody asked for a record.
+std::unique_ptr<Recorder> startRecorder(const FlyArguments& arguments, const RigConfig& rig,
+                                        const FlightPlan& plan) {
+  if (arguments.session.empty()) return nullptr;
+  SessionSettings settings;
+  settings.rig_text = readTextFile(rig.path, "rig file");
+  settings.plan_text = readTextFile(planPath(arguments.plan), "flight plan");
+  settings.rig = rig;
+  settings.plan = plan;
+  settings.realtime = arguments.realtime;
+  return std::make_unique<Recorder>(
+      arguments.session, settings,
+      arguments.realtime ? Recorder::WhenFull::kDrop : Recorder::WhenFull::kWait);
+}
+
+/// The flight counts, whatever became of its record.
+void finishRecord(Recorder& recorder) {
+  recorder.finish();
+  if (recorder.failed())
+    log(LogLevel::kWarning, "the record of the flight is cut off: " + recorder.failure());
+  if (recorder.lost() > 0)
+    log(LogLevel::kWarning, "the disk was too slow: the record lacks " + std::to_string(recorder.lost()) +
+                                " observations, ticks or events");
+}
+
 int fly(const FlyArguments& arguments) {
   const RigConfig rig = configuredRig(arguments);
   const FlightPlan plan = configuredPlan(arguments);
   const double planned_s = plannedSeconds(plan);
+  const std::unique_ptr<Recorder> recorder = startRecorder(arguments, rig, plan);
   FlightRun run;
   {
     Progress progress("Flying " + plan.name);
-    run = runFlight(rig, plan, planned_s + kTimeToSpare, arguments.realtime, [&](const EngineSnapshot& now) {
+    const auto show = [&](const EngineSnapshot& now) {
       if (now.tick % kProgressTicks == 0)
         progress.update(toSeconds(now.time) / planned_s, toString(now.phase));
-    });
+    };
+    run = runFlight(rig, plan, planned_s + kTimeToSpare, arguments.realtime, show, recorder.get());
   }
+  if (recorder) finishRecord(*recorder);
+  run.session = arguments.session;
   const std::string report = arguments.json ? flightJson(run, rig) + "\n" : flightText(run, rig);
   if (std::fputs(report.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw Error(ErrorKind::kSystem, "the report cannot be written to standard output", {},
@@ -169,6 +202,7 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_flag("--realtime", arguments->realtime,
                     "At the pace of the wall clock, in the engine's own threads");
+  command->add_option("--session", arguments->session, "Record the flight to this MCAP file");
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->callback([arguments, &exit_code] { exit_code = fly(*arguments); });
 }

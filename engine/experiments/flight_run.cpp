@@ -78,16 +78,16 @@ void landWithin(FlightPlan& plan, double session_s) {
 }
 
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
-                    const TickListener& listener) {
+                    const TickListener& listener, FlightTap* tap) {
   FlightRun run;
   Operator pilot(limit_s);
   if (realtime) {
-    Engine engine(rig, plan);
+    Engine engine(rig, plan, tap);
     const MonotonicClock stopwatch;
     fly(engine, pilot, run, listener);
     run.wall_s = toSeconds(stopwatch.now());
   } else {
-    LockStep flight(rig, plan);
+    LockStep flight(rig, plan, tap);
     const MonotonicClock stopwatch;
     fly(flight, pilot, run, listener);
     run.wall_s = toSeconds(stopwatch.now());

@@ -12,7 +12,9 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/spsc_queue.h"
+#include "engine/pipeline/announcer.h"
 #include "engine/pipeline/flight_loop.h"
+#include "engine/pipeline/flight_tap.h"
 #include "engine/pipeline/hand_over.h"
 #include "engine/pipeline/output_loop.h"
 #include "engine/pipeline/rig_hardware.h"
@@ -26,53 +28,6 @@ constexpr TimeNs kLongestWait = 20 * kNanosecondsPerMillisecond;
 constexpr std::uint64_t kCalibrationViewTicks = 2;
 
 using ObservationQueue = SpscQueue<Observation, 16>;
-
-EngineEvent event(TimeNs time, Severity severity, const char* text) {
-  EngineEvent result{time, severity, {}};
-  std::snprintf(result.text.data(), result.text.size(), "%s", text);
-  return result;
-}
-
-const char* phaseText(FlightPhase phase) {
-  switch (phase) {
-    case FlightPhase::kIdle:
-      return "Idle";
-    case FlightPhase::kSpinUp:
-      return "Rotors start";
-    case FlightPhase::kLiftOff:
-      return "Lift-off";
-    case FlightPhase::kFlying:
-      return "Airborne";
-    case FlightPhase::kLanding:
-      return "Landing";
-    case FlightPhase::kTouchdown:
-      return "Touchdown";
-    case FlightPhase::kOff:
-      return "Rotors off";
-  }
-  return "";
-}
-
-struct SafetyText {
-  Severity severity;
-  const char* text;
-};
-
-SafetyText safetyText(SafetyState state) {
-  switch (state) {
-    case SafetyState::kNormal:
-      return {Severity::kGood, "Pose regained"};
-    case SafetyState::kCoasting:
-      return {Severity::kCaution, "No pose: coasting on trim"};
-    case SafetyState::kDescending:
-      return {Severity::kDanger, "No pose for 0.5 s: open-loop descent"};
-    case SafetyState::kLandNow:
-      return {Severity::kDanger, "Failsafe: lands where it is"};
-    case SafetyState::kCut:
-      return {Severity::kDanger, "Rotors cut, latched"};
-  }
-  return {Severity::kInfo, ""};
-}
 
 /// Every so many particles, so that the cloud keeps its shape.
 void fillView(const CameraCalibration& calibration, CalibrationView& view) {
@@ -93,12 +48,16 @@ void fillView(const CameraCalibration& calibration, CalibrationView& view) {
   for (int i = 0; i < view.count; ++i) view.particles[static_cast<std::size_t>(i)].weight /= heaviest;
 }
 
-/// What of a camera is announced when it changes.
-struct AnnouncedCamera {
-  CameraStatus status = CameraStatus::kUncalibrated;
-  bool hidden = false;
-  int boards = 0;
-  std::uint32_t knocks = 0;
+std::size_t cameraOf(const Observation& observation) {
+  return static_cast<std::size_t>(observation.camera.index());
+}
+
+/// On its way to the flight thread.
+struct NewCalibration {
+  NewCalibration(std::unique_ptr<CameraCalibration> made, std::uint64_t drawn)
+      : calibration(std::move(made)), seed(drawn) {}
+  std::unique_ptr<CameraCalibration> calibration;
+  std::uint64_t seed;
 };
 
 /// A copy of a capture thread's frames at display rate.
@@ -138,7 +97,7 @@ class PictureTap {
 }  // namespace
 
 struct Engine::Implementation {
-  Implementation(const RigConfig& rig_config, const FlightPlan& flight_plan)
+  Implementation(const RigConfig& rig_config, const FlightPlan& flight_plan, FlightTap* flight_tap)
       : rig(rig_config),
         plan(flight_plan),
         clock(std::make_shared<MonotonicClock>()),
@@ -148,7 +107,9 @@ struct Engine::Implementation {
                          })),
         loop(rig, plan),
         output(*hardware.transmitter),
-        calibrator(rig.calibrator) {
+        calibrator(rig.calibrator),
+        tap(flight_tap),
+        announcer(rig) {
     for (std::size_t i = 0; i < hardware.sources.size(); ++i)
       queues.push_back(std::make_unique<ObservationQueue>());
   }
@@ -157,22 +118,16 @@ struct Engine::Implementation {
   void fly(const std::stop_token& stop);
   void send(const std::stop_token& stop);
   void receive();
+  void hide(std::size_t camera, bool hide_it);
   void tick(TimeNs now);
   void takeCalibrations(TimeNs now);
   void showCalibrations(std::uint64_t tick);
   void addOrders(EngineSnapshot& snapshot) const;
   void measureRate(EngineSnapshot& snapshot);
   void replaceCalibration(std::size_t camera, const std::string& method);
-  void announce(const EngineSnapshot& now);
-  void announceCamera(const EngineSnapshot& now, std::size_t camera);
-  void raise(TimeNs time, Severity severity, const char* text) {
-    lost += !events->push(event(time, severity, text));
-  }
-  /// "NAME: text".
-  void raise(TimeNs time, Severity severity, std::size_t camera, const char* text) {
-    std::array<char, 112> whole{};
-    std::snprintf(whole.data(), whole.size(), "%s: %s", rig.cameras[camera].name.c_str(), text);
-    raise(time, severity, whole.data());
+  void raise(const EngineEvent& event) {
+    lost += !events->push(event);
+    if (tap != nullptr) tap->onEvent(event);
   }
 
   const RigConfig rig;
@@ -195,7 +150,7 @@ struct Engine::Implementation {
   std::array<std::atomic<int>, kMaxCameras> boards{};  ///< how many; the capture threads have the boards
   std::array<std::atomic<std::uint32_t>, kMaxCameras> knocks{};
   std::atomic<TimeNs> gust_until{-1};
-  std::array<HandOver<CameraCalibration>, kMaxCameras> new_calibrations;
+  std::array<HandOver<NewCalibration>, kMaxCameras> new_calibrations;
   std::array<LatestValue<CalibrationView>, kMaxCameras> calibration_views;
   std::string calibrator;               ///< reading thread
   std::uint64_t calibrations_made = 0;  ///< reading thread
@@ -206,15 +161,11 @@ struct Engine::Implementation {
   std::unique_ptr<SpscQueue<EngineEvent, 256>> events = std::make_unique<SpscQueue<EngineEvent, 256>>();
   std::atomic<std::uint64_t> lost{0};
 
-  FlightPhase last_phase = FlightPhase::kIdle;
-  SafetyState last_safety = SafetyState::kNormal;
+  FlightTap* const tap;
+  Announcer announcer;
   TimeNs rate_since = 0;
   std::uint64_t ticks_then = 0;
   double ticks_per_second = 0.0;
-  bool had_pose = false;
-  bool announced_give_up = false;
-  bool gust_blew = false;
-  std::array<AnnouncedCamera, kMaxCameras> announced{};
   bool ever_started = false;
 
   std::vector<std::jthread> threads;
@@ -234,9 +185,14 @@ void Engine::Implementation::capture(std::size_t index, const std::stop_token& s
   }
 }
 
+void Engine::Implementation::hide(std::size_t camera, bool hide_it) {
+  if (loop.snapshot().cameras[camera].hidden == hide_it) return;
+  loop.hideCamera(cameraId(static_cast<int>(camera)), hide_it);
+  if (tap != nullptr) tap->onHidden(cameraId(static_cast<int>(camera)), hide_it, clock->now());
+}
+
 void Engine::Implementation::receive() {
-  for (std::size_t i = 0; i < queues.size(); ++i)
-    loop.hideCamera(cameraId(static_cast<int>(i)), hidden[i].load(std::memory_order_relaxed));
+  for (std::size_t i = 0; i < queues.size(); ++i) hide(i, hidden[i].load(std::memory_order_relaxed));
   // In order of exposure over all cameras, also after a stall that let the queues fill.
   for (;;) {
     std::size_t oldest = queues.size();
@@ -245,7 +201,10 @@ void Engine::Implementation::receive() {
       if (has_head[i] && (oldest == queues.size() || heads[i].exposure < heads[oldest].exposure)) oldest = i;
     }
     if (oldest == queues.size()) return;
-    loop.onObservation(heads[oldest], clock->now());
+    const TimeNs now = clock->now();
+    loop.onObservation(heads[oldest], now);
+    if (tap != nullptr)
+      tap->onObservation(heads[oldest], now, loop.snapshot().cameras[cameraOf(heads[oldest])].track);
     has_head[oldest] = false;
   }
 }
@@ -265,66 +224,23 @@ void Engine::Implementation::tick(TimeNs now) {
   measureRate(snapshot);
   showCalibrations(snapshot.tick);
   if (!tick_queue->push(snapshot)) lost.fetch_add(1, std::memory_order_relaxed);
-  announce(snapshot);
+  if (tap != nullptr) tap->onTick(commands, snapshot);
+  announcer.announce(snapshot, output.gaveUp(), [this](const EngineEvent& event) { raise(event); });
   newest.publish();
-}
-
-void Engine::Implementation::announce(const EngineSnapshot& now) {
-  if (now.pose_known && !had_pose) {
-    had_pose = true;
-    raise(now.time, Severity::kGood, "Helicopter found");
-  }
-  if (now.refusal != nullptr) {
-    std::array<char, 112> text{};
-    std::snprintf(text.data(), text.size(), "Take-off refused: %s", now.refusal);
-    raise(now.time, Severity::kCaution, text.data());
-  }
-  if (output.gaveUp() && !announced_give_up) {
-    announced_give_up = true;
-    raise(now.time, Severity::kDanger, "Output fell back to rotors off: the flight thread was silent");
-  }
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) announceCamera(now, i);
-  if (now.gust_ordered && !gust_blew) raise(now.time, Severity::kInfo, "A gust");
-  gust_blew = now.gust_ordered;
-  if (now.phase != last_phase) raise(now.time, Severity::kInfo, phaseText(now.phase));
-  if (now.safety != last_safety) {
-    const SafetyText text = safetyText(now.safety);
-    raise(now.time, text.severity, text.text);
-  }
-  last_phase = now.phase;
-  last_safety = now.safety;
-}
-
-void Engine::Implementation::announceCamera(const EngineSnapshot& now, std::size_t camera) {
-  const CameraSnapshot& state = now.cameras[camera];
-  AnnouncedCamera& before = announced[camera];
-  const auto raise_if = [&](bool changed, Severity severity, const char* text) {
-    if (changed) raise(now.time, severity, camera, text);
-  };
-  raise_if(state.hidden && !before.hidden, Severity::kCaution, "hidden by the operator");
-  raise_if(!state.hidden && before.hidden, Severity::kInfo, "shown again");
-  raise_if(state.boards > before.boards, Severity::kCaution, "a white board is held before it");
-  raise_if(state.boards < before.boards, Severity::kInfo, "a white board is taken away");
-  raise_if(state.knocks != before.knocks, Severity::kCaution, "knocked by the operator");
-  const CameraStatus status = state.estimate.status;
-  if (status != before.status && now.tick > 1) {
-    raise_if(status == CameraStatus::kCalibrated, Severity::kGood, "calibrated, in the control set");
-    raise_if(status == CameraStatus::kRejected, Severity::kCaution, "disagrees, out of the control set");
-    raise_if(status == CameraStatus::kCalibrating && before.status == CameraStatus::kCalibrated,
-             Severity::kCaution, "out of the control set, calibrating");
-  }
-  before = {status, state.hidden, state.boards, state.knocks};
 }
 
 void Engine::Implementation::takeCalibrations(TimeNs now) {
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    std::unique_ptr<CameraCalibration> calibration = new_calibrations[i].take();
-    if (!calibration) continue;
+    std::unique_ptr<NewCalibration> anew = new_calibrations[i].take();
+    if (!anew) continue;
+    const CameraId camera = cameraId(static_cast<int>(i));
+    const char* method = anew->calibration->calibrator().name();
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "calibrates anew by %s", calibration->calibrator().name());
-    raise(now, Severity::kInfo, i, text.data());
-    loop.swapCalibration(cameraId(static_cast<int>(i)), calibration);
-    new_calibrations[i].giveBack(std::move(calibration));
+    std::snprintf(text.data(), text.size(), "calibrates anew by %s", method);
+    raise(announcer.event(now, Severity::kInfo, i, text.data()));
+    loop.swapCalibration(camera, anew->calibration);
+    if (tap != nullptr) tap->onCalibration(camera, method, anew->seed, now);
+    new_calibrations[i].giveBack(std::move(anew));
   }
 }
 
@@ -365,8 +281,9 @@ void Engine::Implementation::replaceCalibration(std::size_t index, const std::st
   if (!camera.pose_is_guess) return;
   // Another seed each time: a restart should not repeat the luck of the last one.
   const std::uint64_t seed = rig.simulation.seed + index + kMaxCameras * ++calibrations_made;
-  new_calibrations[index].offer(std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body,
-                                                                    *camera.camera_from_world, seed));
+  auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body,
+                                                         *camera.camera_from_world, seed, rig.calibration);
+  new_calibrations[index].offer(std::make_unique<NewCalibration>(std::move(calibration), seed));
 }
 
 void Engine::Implementation::fly(const std::stop_token& stop) {
@@ -394,8 +311,8 @@ void Engine::Implementation::send(const std::stop_token& stop) {
   output.step(clock->now());
 }
 
-Engine::Engine(const RigConfig& rig, const FlightPlan& plan)
-    : implementation_(std::make_unique<Implementation>(rig, plan)) {}
+Engine::Engine(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
+    : implementation_(std::make_unique<Implementation>(rig, plan, tap)) {}
 
 Engine::~Engine() {
   stop();

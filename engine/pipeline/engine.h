@@ -11,13 +11,16 @@
 
 namespace helical {
 
+class FlightTap;
+
 /// A flight in real time: one capture thread per camera, one tracking and flight thread, one output thread.
 /// This is the whole of the engine that the window knows. Reading methods are for one thread (the window's);
 /// none of them blocks the engine, nor does the engine ever wait for them.
 class Engine {
  public:
-  /// Builds sources and transmitter as the rig says. Throws Error when something is missing.
-  Engine(const RigConfig& rig, const FlightPlan& plan);
+  /// Builds sources and transmitter as the rig says. Throws Error when something is missing. `tap` sees the
+  /// flight on its thread until `stop` and outlives the engine.
+  Engine(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap = nullptr);
   ~Engine();  ///< stops: rotors off first
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;

@@ -7,11 +7,13 @@ constexpr TimeNs kStep = kNanosecondsPerMillisecond;
 
 }  // namespace
 
-LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan)
+LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
     : clock_(std::make_shared<ManualClock>()),
       hardware_(openRig(rig, clock_)),
       loop_(rig, plan),
       output_(*hardware_.transmitter),
+      tap_(tap),
+      announcer_(rig),
       tick_period_s_(1.0 / rig.control.rate_hz) {}
 
 const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
@@ -20,7 +22,7 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
     clock_->set(clock_->now() + kStep);
     Observation observation;
     for (auto& source : hardware_.sources)
-      while (source->poll(observation)) loop_.onObservation(observation, clock_->now());
+      while (source->poll(observation)) use(observation);
   }
   const TimeNs now = clock_->now();
   if (commands.kill) output_.kill();
@@ -30,7 +32,24 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   output_.step(now);
   snapshot_ = loop_.snapshot();
   hardware_.addTruth(snapshot_, now);
+  if (tap_ != nullptr) {
+    tap_->onTick(gated, snapshot_);
+    announcer_.announce(snapshot_, output_.gaveUp(),
+                        [this](const EngineEvent& event) { tap_->onEvent(event); });
+  }
   return snapshot_;
+}
+
+void LockStep::use(const Observation& observation) {
+  const TimeNs now = clock_->now();
+  loop_.onObservation(observation, now);
+  const auto camera = static_cast<std::size_t>(observation.camera.index());
+  if (tap_ != nullptr) tap_->onObservation(observation, now, loop_.snapshot().cameras[camera].track);
+}
+
+void LockStep::hideCamera(CameraId camera, bool hidden) {
+  loop_.hideCamera(camera, hidden);
+  if (tap_ != nullptr) tap_->onHidden(camera, hidden, clock_->now());
 }
 
 }  // namespace helical

@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "engine/base/clock.h"
+#include "engine/pipeline/announcer.h"
 #include "engine/pipeline/flight_loop.h"
+#include "engine/pipeline/flight_tap.h"
 #include "engine/pipeline/output_loop.h"
 #include "engine/pipeline/rig_hardware.h"
 
@@ -14,19 +16,23 @@ namespace helical {
 /// cameras are polled, the flight loop ticks, the output loop sends. Bit for bit repeatable for a seed.
 class LockStep {
  public:
-  /// Builds the rig's hardware on a clock of its own. Throws Error.
-  LockStep(const RigConfig& rig, const FlightPlan& plan);
+  /// Builds the rig's hardware on a clock of its own. Throws Error. `tap` sees the flight, and outlives it.
+  LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap = nullptr);
 
   /// Advances to the next control tick and returns the state after it.
   const EngineSnapshot& tick(const OperatorCommands& commands);
 
-  void hideCamera(CameraId camera, bool hidden) { loop_.hideCamera(camera, hidden); }
+  void hideCamera(CameraId camera, bool hidden);
 
  private:
+  void use(const Observation& observation);
+
   std::shared_ptr<ManualClock> clock_;
   RigHardware hardware_;
   FlightLoop loop_;
   OutputLoop output_;
+  FlightTap* tap_;
+  Announcer announcer_;
   EngineSnapshot snapshot_;
   double tick_period_s_;
   std::uint64_t ticks_ = 0;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/base/ids.h"
+#include "engine/config/rig_config.h"
+#include "engine/pipeline/snapshot.h"
+
+namespace helical {
+
+/// Tells what has changed from one control tick to the next in an operator's words. One thread; allocates at
+/// construction only.
+class Announcer {
+ public:
+  using Sink = std::function<void(const EngineEvent&)>;
+
+  explicit Announcer(const RigConfig& rig);
+
+  /// `gave_up`: the output fell back to rotors off because nobody told it anything.
+  void announce(const EngineSnapshot& now, bool gave_up, const Sink& raise);
+
+  static EngineEvent event(TimeNs time, Severity severity, const char* text);
+  /// "NAME: text".
+  EngineEvent event(TimeNs time, Severity severity, std::size_t camera, const char* text) const;
+
+ private:
+  /// What of a camera is announced when it changes.
+  struct Camera {
+    CameraStatus status = CameraStatus::kUncalibrated;
+    bool hidden = false;
+    int boards = 0;
+    std::uint32_t knocks = 0;
+  };
+  void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
+
+  std::vector<std::string> names_;
+  FlightPhase phase_ = FlightPhase::kIdle;
+  SafetyState safety_ = SafetyState::kNormal;
+  bool had_pose_ = false;
+  bool gave_up_ = false;
+  bool gust_blew_ = false;
+  std::array<Camera, kMaxCameras> cameras_{};
+};
+
+}  // namespace helical

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "engine/flight/autopilot.h"
+#include "engine/markers/observation.h"
+#include "engine/pipeline/snapshot.h"
+
+namespace helical {
+
+struct UsedObservation {
+  Observation observation;
+  TimeNs used = 0;    ///< when the flight thread took it
+  CameraTrack track;  ///< what became of it
+};
+
+struct FlightTick {
+  OperatorCommands commands;
+  EngineSnapshot state;  ///< after the tick
+};
+
+struct CameraHidden {
+  CameraId camera;
+  bool hidden = false;
+  TimeNs time = 0;
+};
+
+struct CalibrationBegun {
+  CameraId camera;
+  const char* method = "";  ///< a literal
+  std::uint64_t seed = 0;
+  TimeNs time = 0;
+};
+
+/// One thing that a session writes down, in the order in which it reached the flight thread. Allocates
+/// nothing.
+struct FlightItem {
+  std::uint64_t order = 0;  ///< counted from 1, also what was lost on the way to the disk
+  std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun> what;
+};
+
+}  // namespace helical

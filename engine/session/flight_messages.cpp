@@ -1,0 +1,367 @@
+#include "engine/session/flight_messages.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstring>
+
+namespace helical {
+namespace {
+
+constexpr std::uint8_t kLogInfo = 20, kLogWarning = 30, kLogError = 40;
+
+void putTime(CdrWriter& out, TimeNs time) {
+  const TimeNs seconds = time / kNanosecondsPerSecond;
+  out.put(static_cast<std::int32_t>(seconds));
+  out.put(static_cast<std::uint32_t>(std::max<TimeNs>(0, time - seconds * kNanosecondsPerSecond)));
+}
+
+void begin(CdrWriter& out, TimeNs time, std::string_view frame) {
+  out.clear();
+  putTime(out, time);
+  out.putText(frame);
+}
+
+void putQuaternion(CdrWriter& out, const Eigen::Quaterniond& rotation) {
+  out.putAll(rotation.coeffs());  // x y z w, as ROS has them
+}
+
+void putPose(CdrWriter& out, const RigidTransform& world_from_frame) {
+  out.putAll(world_from_frame.translation);
+  putQuaternion(out, world_from_frame.rotation);
+}
+
+RigidTransform getPose(CdrReader& in) {
+  RigidTransform pose;
+  for (double& value : pose.translation) value = in.get<double>();
+  for (double& value : pose.rotation.coeffs()) value = in.get<double>();
+  return pose;
+}
+
+/// A quaternion that means one yaw.
+Eigen::Quaterniond heading(double yaw) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+}
+
+void skipHeader(CdrReader& in) {
+  in.get<std::int32_t>();
+  in.get<std::uint32_t>();
+  in.getText();
+}
+
+const char* statusName(CameraStatus status) {
+  switch (status) {
+    case CameraStatus::kUncalibrated:
+      return "uncalibrated";
+    case CameraStatus::kCalibrating:
+      return "calibrating";
+    case CameraStatus::kCalibrated:
+      return "calibrated";
+    case CameraStatus::kRejected:
+      return "rejected";
+  }
+  return "";
+}
+
+std::uint8_t logLevel(Severity severity) {
+  switch (severity) {
+    case Severity::kInfo:
+    case Severity::kGood:
+      return kLogInfo;
+    case Severity::kCaution:
+      return kLogWarning;
+    case Severity::kDanger:
+      return kLogError;
+  }
+  return kLogInfo;
+}
+
+/// The marker that was seen in a centroid; -1 if none was.
+int markerOf(const Centroid& centroid, const CameraTrack& track, int markers) {
+  for (int m = 0; m < markers; ++m) {
+    const MarkerTrack& marker = track.markers[static_cast<std::size_t>(m)];
+    if (marker.observed && marker.pixel == centroid.pixel) return m;
+  }
+  return -1;
+}
+
+void putCentroid(CdrWriter& out, const Centroid& centroid, const CameraTrack& track, int marker) {
+  const MarkerTrack named = marker < 0 ? MarkerTrack{} : track.markers[static_cast<std::size_t>(marker)];
+  out.putAll(centroid.pixel);
+  out.putAll(centroid.covariance);
+  out.put(centroid.area_px);
+  out.put(centroid.radius_px);
+  out.put(static_cast<std::int32_t>(centroid.colour));
+  out.put(static_cast<std::int32_t>(marker));
+  out.put(named.selected);
+  out.put(named.predicted);
+  out.putAll(named.reprojected);
+}
+
+Centroid getCentroid(CdrReader& in) {
+  Centroid centroid;
+  for (double& value : centroid.pixel) value = in.get<double>();
+  for (int i = 0; i < 4; ++i) centroid.covariance(i / 2, i % 2) = in.get<double>();
+  centroid.area_px = in.get<double>();
+  centroid.radius_px = in.get<double>();
+  centroid.colour = in.get<std::int32_t>();
+  in.get<std::int32_t>();
+  in.getBool();
+  in.getBool();
+  in.get<double>();
+  in.get<double>();
+  return centroid;
+}
+
+}  // namespace
+
+std::string cameraFrame(const CameraConfig& camera) {
+  return "camera_" + camera.label;
+}
+
+void encodePose(CdrWriter& out, TimeNs time, const RigidTransform& world_from_frame) {
+  begin(out, time, kWorldFrame);
+  putPose(out, world_from_frame);
+}
+
+void encodeVelocity(CdrWriter& out, TimeNs time, const HelicopterState& state) {
+  begin(out, time, kWorldFrame);
+  out.putAll(state.velocity_in_world);
+  out.putAll(Eigen::Vector3d(state.world_from_body.rotation * state.angular_velocity_in_body));
+}
+
+void encodeTrackedPose(CdrWriter& out, const TrackedState& tracked) {
+  const RigidTransform& pose = tracked.state.world_from_body;
+  // Ours turns about the body's axes.
+  Matrix6d world_axes = Matrix6d::Identity();
+  world_axes.bottomRightCorner<3, 3>() = pose.rotation.toRotationMatrix();
+  begin(out, tracked.time, kWorldFrame);
+  putPose(out, pose);
+  out.putAll(Matrix6d(world_axes * tracked.pose_covariance * world_axes.transpose()));
+}
+
+void encodeSetPointPose(CdrWriter& out, TimeNs time, const SetPoint& set_point) {
+  encodePose(out, time, {heading(set_point.yaw), set_point.position_in_world});
+}
+
+void encodeSetPointVelocity(CdrWriter& out, TimeNs time, const SetPoint& set_point) {
+  begin(out, time, kWorldFrame);
+  out.putAll(set_point.velocity_in_world);
+  out.putAll(Eigen::Vector3d(Eigen::Vector3d::Zero()));
+}
+
+void encodeSticks(CdrWriter& out, TimeNs time, const StickDemand& sticks) {
+  begin(out, time, kHelicopterFrame);
+  for (const double value : {sticks.upper_rotor, sticks.lower_rotor, sticks.roll, sticks.pitch})
+    out.put(value);
+}
+
+void encodeExtrinsics(CdrWriter& out, TimeNs time, const CameraEstimate& estimate) {
+  const RigidTransform world_from_camera = estimate.camera_from_world.inverse();
+  // Ours turns camera_from_world about the camera's axes: world_from_camera turns the other way about the
+  // world's; and it has the rotation first.
+  Matrix6d ros_from_ours = Matrix6d::Zero();
+  ros_from_ours.topRightCorner<3, 3>().setIdentity();
+  ros_from_ours.bottomLeftCorner<3, 3>() = -world_from_camera.rotation.toRotationMatrix();
+  begin(out, time, kWorldFrame);
+  putPose(out, world_from_camera);
+  out.putAll(Matrix6d(ros_from_ours * estimate.covariance * ros_from_ours.transpose()));
+}
+
+void encodeCameraState(CdrWriter& out, TimeNs time, const CameraSnapshot& camera) {
+  begin(out, time, kWorldFrame);
+  out.put(static_cast<std::uint8_t>(camera.estimate.status));
+  out.putText(statusName(camera.estimate.status));
+  out.put(camera.hidden);
+  out.putText(camera.calibration_method != nullptr ? camera.calibration_method : "");
+  out.put(camera.effective_sample_size);
+  out.put(static_cast<std::int32_t>(camera.boards));
+  out.put(camera.knocks);
+  out.put(camera.frames);
+  out.put(camera.dropped);
+  out.put(camera.frames_per_second);
+  for (const TimeNs time_ns : {camera.latency, camera.extraction_p50, camera.extraction_p99})
+    out.put(time_ns);
+}
+
+void encodeCameraInfo(CdrWriter& out, const CameraConfig& camera) {
+  const CameraModel& model = camera.model;
+  begin(out, 0, cameraFrame(camera));
+  out.put(static_cast<std::uint32_t>(model.height()));
+  out.put(static_cast<std::uint32_t>(model.width()));
+  out.putText("plumb_bob");
+  out.put(static_cast<std::uint32_t>(model.distortion().size()));
+  for (const double value : model.distortion()) out.put(value);
+  Eigen::Matrix<double, 3, 4> projection = Eigen::Matrix<double, 3, 4>::Zero();
+  projection.leftCols<3>() << model.fx(), 0.0, model.cx(), 0.0, model.fy(), model.cy(), 0.0, 0.0, 1.0;
+  out.putAll(projection.leftCols<3>());
+  out.putAll(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  out.putAll(projection);
+  for (int i = 0; i < 6; ++i) out.put(std::uint32_t{0});  // no binning, no region
+  out.put(false);
+}
+
+void encodeObservation(CdrWriter& out, std::uint64_t order, const UsedObservation& used, int markers,
+                       const std::string& frame) {
+  const Observation& observation = used.observation;
+  begin(out, observation.exposure, frame);
+  out.put(order);
+  out.put(used.used);
+  out.put(observation.sequence);
+  out.put(observation.exposure);
+  out.put(observation.arrival);
+  out.put(observation.extraction);
+  out.put(observation.truncated);
+  out.put(static_cast<std::uint32_t>(observation.count));
+  const bool looked_at = used.track.exposure == observation.exposure;
+  for (int i = 0; i < observation.count; ++i) {
+    const Centroid& centroid = observation.centroids[static_cast<std::size_t>(i)];
+    putCentroid(out, centroid, used.track, looked_at ? markerOf(centroid, used.track, markers) : -1);
+  }
+}
+
+void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& tick) {
+  const EngineSnapshot& state = tick.state;
+  begin(out, state.time, kWorldFrame);
+  out.put(order);
+  out.put(state.time);
+  out.put(state.tick);
+  out.put(tick.commands.take_off);
+  out.put(tick.commands.land);
+  out.put(tick.commands.kill);
+  out.put(static_cast<std::uint8_t>(state.phase));
+  out.putText(toString(state.phase));
+  out.put(static_cast<std::uint8_t>(state.safety));
+  out.putText(toString(state.safety));
+  out.put(state.failsafes);
+  out.put(state.pose_known);
+  out.put(state.pose_age);
+  out.put(state.hovering);
+  out.put(state.flight_time_s);
+  out.put(state.pad_height);
+  for (const TimeNs time :
+       {state.server_p50, state.server_p99, state.frame_to_command_p50, state.frame_to_command_p99})
+    out.put(time);
+  out.put(state.gust_ordered);
+  out.put(state.has_truth);
+  out.put(state.verdict.crashed);
+  out.putText(state.verdict.reason);
+  out.put(state.verdict.crash_time_s);
+  out.put(state.verdict.has_flown);
+  out.put(state.verdict.at_rest);
+  out.put(state.verdict.hardest_touch);
+}
+
+void encodeOrder(CdrWriter& out, std::uint64_t order, const CameraHidden& hidden) {
+  begin(out, hidden.time, kWorldFrame);
+  out.put(order);
+  out.put(hidden.time);
+  out.putText(hidden.hidden ? "hide" : "show");
+  out.put(static_cast<std::int32_t>(hidden.camera.index()));
+  out.putText("");
+  out.put(std::uint64_t{0});
+}
+
+void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationBegun& begun) {
+  begin(out, begun.time, kWorldFrame);
+  out.put(order);
+  out.put(begun.time);
+  out.putText("calibrate");
+  out.put(static_cast<std::int32_t>(begun.camera.index()));
+  out.putText(begun.method);
+  out.put(begun.seed);
+}
+
+void encodeEvent(CdrWriter& out, const EngineEvent& event) {
+  out.clear();
+  putTime(out, event.time);
+  out.put(logLevel(event.severity));
+  out.putText("helical");
+  out.putText({event.text.data(), ::strnlen(event.text.data(), event.text.size())});
+  out.putText("");
+  out.putText("");
+  out.put(std::uint32_t{0});
+}
+
+void encodeTransforms(CdrWriter& out, TimeNs time, std::span<const NamedTransform> transforms) {
+  out.clear();
+  out.put(static_cast<std::uint32_t>(transforms.size()));
+  for (const NamedTransform& transform : transforms) {
+    putTime(out, time);
+    out.putText(kWorldFrame);
+    out.putText(transform.frame);
+    putPose(out, transform.world_from_frame);
+  }
+}
+
+DecodedObservation decodeObservation(std::string_view payload) {
+  CdrReader in(payload);
+  skipHeader(in);
+  DecodedObservation decoded;
+  Observation& observation = decoded.observation;
+  decoded.order = in.get<std::uint64_t>();
+  decoded.used = in.get<TimeNs>();
+  observation.sequence = in.get<std::uint64_t>();
+  observation.exposure = in.get<TimeNs>();
+  observation.arrival = in.get<TimeNs>();
+  observation.extraction = in.get<TimeNs>();
+  observation.truncated = in.getBool();
+  const auto count = in.get<std::uint32_t>();
+  if (count > kMaxCentroids) throw CutShort();
+  observation.count = static_cast<int>(count);
+  for (std::size_t i = 0; i < count; ++i) observation.centroids[i] = getCentroid(in);
+  return decoded;
+}
+
+DecodedTick decodeFlightState(std::string_view payload) {
+  CdrReader in(payload);
+  skipHeader(in);
+  DecodedTick tick;
+  tick.order = in.get<std::uint64_t>();
+  tick.time = in.get<TimeNs>();
+  in.get<std::uint64_t>();
+  tick.commands.take_off = in.getBool();
+  tick.commands.land = in.getBool();
+  tick.commands.kill = in.getBool();
+  tick.phase = static_cast<FlightPhase>(
+      std::min<std::uint8_t>(in.get<std::uint8_t>(), static_cast<std::uint8_t>(FlightPhase::kOff)));
+  in.getText();
+  in.get<std::uint8_t>();
+  in.getText();
+  in.get<std::uint32_t>();
+  in.getBool();
+  in.get<TimeNs>();
+  in.getBool();
+  in.get<double>();
+  in.get<double>();
+  for (int i = 0; i < 4; ++i) in.get<TimeNs>();
+  tick.gust_ordered = in.getBool();
+  tick.has_truth = in.getBool();
+  tick.verdict.crashed = in.getBool();
+  tick.crash_reason = in.getText();
+  tick.verdict.crash_time_s = in.get<double>();
+  tick.verdict.has_flown = in.getBool();
+  tick.verdict.at_rest = in.getBool();
+  tick.verdict.hardest_touch = in.get<double>();
+  return tick;
+}
+
+DecodedOrder decodeOrder(std::string_view payload) {
+  CdrReader in(payload);
+  skipHeader(in);
+  DecodedOrder order;
+  order.order = in.get<std::uint64_t>();
+  order.time = in.get<TimeNs>();
+  order.kind = in.getText();
+  order.camera = in.get<std::int32_t>();
+  order.method = in.getText();
+  order.seed = in.get<std::uint64_t>();
+  return order;
+}
+
+RigidTransform decodePose(std::string_view payload) {
+  CdrReader in(payload);
+  skipHeader(in);
+  return getPose(in);
+}
+
+}  // namespace helical

@@ -1,0 +1,128 @@
+#include "engine/session/message_types.h"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+#include "engine/base/check.h"
+
+namespace helical {
+namespace {
+
+struct Definition {
+  std::string_view name;
+  std::string_view text;
+};
+
+constexpr Definition kDefinitions[] = {
+    {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"},
+    {"geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
+    {"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    {"geometry_msgs/PoseWithCovarianceStamped",
+     "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
+    {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    {"geometry_msgs/TwistStamped", "std_msgs/Header header\ngeometry_msgs/Twist twist\n"},
+    {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    {"geometry_msgs/TransformStamped",
+     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+    {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    {"sensor_msgs/RegionOfInterest",
+     "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n"},
+    {"sensor_msgs/CameraInfo",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\n"
+     "float64[9] k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\nuint32 binning_y\n"
+     "sensor_msgs/RegionOfInterest roi\n"},
+    {"rcl_interfaces/Log",
+     "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"
+     "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\nstring function\n"
+     "uint32 line\n"},
+    {"helical_msgs/Centroid",
+     "float64 u_px\nfloat64 v_px\nfloat64[4] covariance_px2\nfloat64 area_px2\nfloat64 radius_px\n"
+     "int32 colour\n"
+     "int32 marker            # counted from 0; -1: no marker was seen in it\n"
+     "bool selected           # used for the pose\n"
+     "bool predicted          # the next two are valid\n"
+     "float64 reprojected_u_px\nfloat64 reprojected_v_px\n"},
+    {"helical_msgs/Observation",
+     "std_msgs/Header header  # mid-exposure\n"
+     "uint64 order            # of what reached the flight thread\n"
+     "int64 used_ns\nuint64 sequence\nint64 exposure_ns\nint64 arrival_ns\nint64 extraction_ns\n"
+     "bool truncated\nhelical_msgs/Centroid[] centroids\n"},
+    {"helical_msgs/StickDemand",
+     "std_msgs/Header header\nfloat64 upper_rotor\nfloat64 lower_rotor\nfloat64 roll\nfloat64 pitch\n"},
+    {"helical_msgs/FlightState",
+     "std_msgs/Header header\n"
+     "uint64 order            # of what reached the flight thread\n"
+     "int64 time_ns\nuint64 tick\nbool take_off_ordered\nbool land_ordered\nbool kill_ordered\n"
+     "uint8 phase\nstring phase_name\nuint8 safety\nstring safety_name\n"
+     "uint32 failsafes        # bits\n"
+     "bool pose_known\nint64 pose_age_ns\nbool hovering\nfloat64 flight_time_s\nfloat64 pad_height_m\n"
+     "int64 server_p50_ns\nint64 server_p99_ns\nint64 frame_to_command_p50_ns\n"
+     "int64 frame_to_command_p99_ns\nbool gust_ordered\n"
+     "bool has_truth          # the others are valid; simulated flights\n"
+     "bool crashed\nstring crash_reason\nfloat64 crash_time_s\nbool has_flown\nbool at_rest\n"
+     "float64 hardest_touch_m_s\n"},
+    {"helical_msgs/CameraState",
+     "std_msgs/Header header\nuint8 status\nstring status_name\nbool hidden\n"
+     "string calibration_method  # empty: the pose was given\n"
+     "float64 effective_sample_size\nint32 boards\nuint32 knocks\nuint64 frames\nuint64 dropped\n"
+     "float64 rate_hz\nint64 latency_ns\nint64 extraction_p50_ns\nint64 extraction_p99_ns\n"},
+    {"helical_msgs/OperatorOrder",
+     "std_msgs/Header header\n"
+     "uint64 order            # of what reached the flight thread\n"
+     "int64 time_ns\n"
+     "string kind             # hide, show, calibrate\n"
+     "int32 camera            # counted from 0\n"
+     "string method\nuint64 seed\n"},
+};
+
+constexpr std::string_view kNames[kMessageKinds] = {
+    "geometry_msgs/PoseStamped",  "geometry_msgs/PoseWithCovarianceStamped",
+    "geometry_msgs/TwistStamped", "tf2_msgs/TFMessage",
+    "sensor_msgs/CameraInfo",     "rcl_interfaces/Log",
+    "helical_msgs/Observation",   "helical_msgs/StickDemand",
+    "helical_msgs/FlightState",   "helical_msgs/CameraState",
+    "helical_msgs/OperatorOrder"};
+
+const Definition* definitionOf(std::string_view name) {
+  const auto* found = std::find_if(std::begin(kDefinitions), std::end(kDefinitions),
+                                   [&](const Definition& definition) { return definition.name == name; });
+  return found == std::end(kDefinitions) ? nullptr : found;
+}
+
+/// The message and all inside it, each once.
+void collect(const Definition& definition, std::vector<const Definition*>& all) {
+  if (std::find(all.begin(), all.end(), &definition) != all.end()) return;
+  all.push_back(&definition);
+  std::istringstream lines{std::string(definition.text)};
+  for (std::string line; std::getline(lines, line);) {
+    const Definition* inside = definitionOf(line.substr(0, line.find_first_of(" [")));
+    if (inside != nullptr) collect(*inside, all);
+  }
+}
+
+}  // namespace
+
+std::string messageName(MessageKind kind) {
+  std::string name(kNames[static_cast<std::size_t>(kind)]);
+  return name.insert(name.find('/') + 1, "msg/");
+}
+
+std::string messageDefinition(MessageKind kind) {
+  const Definition* outer = definitionOf(kNames[static_cast<std::size_t>(kind)]);
+  HELICAL_CHECK(outer != nullptr);
+  std::vector<const Definition*> all;
+  collect(*outer, all);
+  std::string text(outer->text);
+  for (std::size_t i = 1; i < all.size(); ++i)
+    text += std::string(80, '=') + "\nMSG: " + std::string(all[i]->name) + "\n" + std::string(all[i]->text);
+  return text;
+}
+
+}  // namespace helical

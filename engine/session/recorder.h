@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "engine/base/spsc_queue.h"
+#include "engine/pipeline/flight_tap.h"
+#include "engine/session/flight_item.h"
+#include "engine/session/session_writer.h"
+
+namespace helical {
+
+/// Records a flight without ever being in its way: the flight thread leaves copies in a bounded queue, a
+/// thread of its own writes them. Chunks reach the disk every 250 ms at the latest. When the disk refuses,
+/// the flight goes on without a record, and `failure` says why.
+class Recorder final : public FlightTap {
+ public:
+  enum class WhenFull {
+    kDrop,  ///< in real time: what does not fit is counted and lost
+    kWait,  ///< in lock step: simulated time waits for the disk
+  };
+
+  /// Opens the file. Throws Error(kSystem) when that fails.
+  Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full);
+  ~Recorder() override;  ///< finishes
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  // Flight thread.
+  void onObservation(const Observation& observation, TimeNs now, const CameraTrack& track) override;
+  void onTick(const OperatorCommands& commands, const EngineSnapshot& state) override;
+  void onHidden(CameraId camera, bool hidden, TimeNs now) override;
+  void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) override;
+  void onEvent(const EngineEvent& event) override;
+
+  /// After the flight: writes what is left and closes the file.
+  void finish();
+
+  /// Any thread.
+  std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  bool failed() const { return failed_.load(std::memory_order_acquire); }
+  /// Why the record is cut off; once `failed`.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  using Queue = SpscQueue<FlightItem, 1024>;
+  void push();
+  void run();
+  void attempt(const std::function<void()>& step);
+
+  SessionWriter writer_;
+  WhenFull when_full_;
+  std::unique_ptr<Queue> queue_ = std::make_unique<Queue>();
+  FlightItem next_;  ///< flight thread
+  std::atomic<std::uint64_t> lost_{0};
+  std::atomic<bool> failed_{false};
+  std::string failure_;  ///< writing thread, before `failed_`
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace helical

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/calibration/calibrator_factory.h"
 #include "engine/flight/controller_options.h"
 #include "engine/flight/supervisor_options.h"
 #include "engine/geometry/camera_model.h"
@@ -41,6 +42,7 @@ struct RigConfig {
   /// Otherwise only from a pose that other cameras vouch for.
   bool learn_from_own_pose = false;
   std::string calibrator = "joint";  ///< of cameras that have a first guess only
+  CalibratorOptions calibration;
 
   /// The camera that users call `label`; throws Error(kInput) listing the rig's cameras.
   CameraId camera(const std::string& label) const;

@@ -160,6 +160,7 @@ RigConfig parseRig(std::string_view toml, const std::string& name) {
   readControllerOptions(root.table("flight"), rig.control);
   readSupervisorOptions(root.table("safety"), rig.safety);
   readTransmitter(root.table("transmitter"));
+  readCalibration(root.table("calibration"), rig);
   readSimulation(root.table("simulation"), rig);
   root.finish();
   checkCameraCount(root, rig);

@@ -1,5 +1,8 @@
 #include "engine/config/rig_options.h"
 
+#include <algorithm>
+#include <string>
+
 #include "engine/base/error.h"
 #include "engine/config/option_fields.h"
 #include "engine/geometry/rotation.h"
@@ -119,6 +122,22 @@ constexpr OptionField<SimulationOptions> kSimulationFields[] = {
     {"light_drift", &SimulationOptions::light_drift},
 };
 
+constexpr OptionField<GuessSpread> kGuessFields[] = {
+    {"guess_rotation_deg", &GuessSpread::rotation_rad, kDegree, 0.1, 180.0},
+    {"guess_position_m", &GuessSpread::position_m, 1.0, 0.001, 100.0},
+};
+
+constexpr OptionField<GrowingGaussNewtonOptions> kGrowingFields[] = {
+    {"kept_frames", &GrowingGaussNewtonOptions::kept_frames, 1.0, 16, 10000},
+    {"robust_sigmas", &GrowingGaussNewtonOptions::robust_sigmas, 1.0, 0.0, 1000.0},
+};
+
+constexpr OptionField<ParticleFilterOptions> kParticleFields[] = {
+    {"particles", &ParticleFilterOptions::particles, 1.0, 10, 1'000'000},
+    {"likelihood_floor", &ParticleFilterOptions::floor, 1.0, 1e-12, 1.0},
+    {"kernel", &ParticleFilterOptions::kernel, 1.0, 0.0, 0.999},
+};
+
 constexpr OptionField<ObservationNoise> kNoiseFields[] = {
     {"sigma_px", &ObservationNoise::sigma_px},           {"bias_px", &ObservationNoise::bias_px},
     {"bias_time_s", &ObservationNoise::bias_time_s},     {"dropout", &ObservationNoise::dropout},
@@ -209,6 +228,22 @@ void readTransmitter(TomlTable table) {
   table.finish();
   if (kind != "simulated")
     table.fail("kind", "the transmitter '" + kind + "' is not built yet", "use kind = \"simulated\"");
+}
+
+void readCalibration(TomlTable table, RigConfig& rig) {
+  if (const auto method = table.text("method")) {
+    const auto names = calibratorNames();
+    if (std::find(names.begin(), names.end(), *method) == names.end()) {
+      std::string known;
+      for (const auto name : names) known += (known.empty() ? "" : ", ") + std::string(name);
+      table.fail("method", "there is no calibrator '" + *method + "'", "give one of " + known);
+    }
+    rig.calibrator = *method;
+  }
+  readOptions(table, kGuessFields, rig.calibration.guess);
+  readOptions(table, kGrowingFields, rig.calibration.growing_gauss_newton);
+  readOptions(table, kParticleFields, rig.calibration.particle_filter);
+  table.finish();
 }
 
 }  // namespace helical

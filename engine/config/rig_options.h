@@ -14,5 +14,7 @@ void readControllerOptions(TomlTable table, ControllerOptions& options);
 void readSupervisorOptions(TomlTable table, SupervisorOptions& options);
 void readSimulationOptions(TomlTable& table, SimulationOptions& options);
 void readTransmitter(TomlTable table);
+/// The method and what users set of all methods.
+void readCalibration(TomlTable table, RigConfig& rig);
 
 }  // namespace helical

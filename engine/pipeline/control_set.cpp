@@ -26,7 +26,8 @@ ControlSet::ControlSet(const RigConfig& rig)
     learning_[i] = camera.pose_is_guess;
     rank_[i] = camera.pose_is_guess ? 1 : 0;
     calibrations_[i] = std::make_unique<CameraCalibration>(
-        rig.calibrator, camera.model, markers_, *camera.camera_from_world, rig.simulation.seed + i);
+        rig.calibrator, camera.model, markers_, *camera.camera_from_world, rig.simulation.seed + i,
+        rig.calibration);
   }
   // A rank for each camera that may be knocked, one after the other.
   for (std::size_t r = 0; r <= cameras_ + 1; ++r)

@@ -109,6 +109,10 @@ constexpr Mistake kMistakes[] = {
      "linkage"},
     {"TiltLimitRefused", "[markers]", "[safety]\ntilt_limit_deg = 0\n[markers]", "tilt_limit_deg",
      "tilt_limit is 0"},
+    {"CalibratorUnknown", "[markers]", "[calibration]\nmethod = \"x\"\n[markers]", "method",
+     "no calibrator 'x'"},
+    {"TooFewParticles", "[markers]", "[calibration]\nparticles = 3\n[markers]", "particles", "10 to 1e+06"},
+    {"CalibrationKeyUnknown", "[markers]", "[calibration]\nkernl = 0.5\n[markers]", "kernl", "kernel"},
     {"TruthOfNoCamera", "[simulation]",
      "[[simulation.camera]]\nid = 9\nrotation_wxyz = [1, 0, 0, 0]\ntranslation_m = [0, 0, 1]\n[simulation]",
      "id = 9", "there is no camera '9'"},
@@ -141,7 +145,8 @@ TEST(BadRigFile, TwoCamerasOfOneIdAreNamedWithBothLines) {
 
 TEST(BadRigFile, HasNoCameraOrTooMany) {
   EXPECT_EQ(errorOf([] { parseRig("format_version = 1\n", "r"); }).problem(), "the rig has no camera");
-  EXPECT_EQ(errorOf([] { parseRig("format_version = 1\n[[camra]]\n", "r"); }).cure(), "did you mean 'camera'?");
+  EXPECT_EQ(errorOf([] { parseRig("format_version = 1\n[[camra]]\n", "r"); }).cure(),
+            "did you mean 'camera'?");
   std::string text = "format_version = 1\n";
   for (int i = 0; i < kMaxCameras; ++i) text += camera(std::to_string(i));
   EXPECT_EQ(parseRig(text, "r").cameras.size(), static_cast<std::size_t>(kMaxCameras));

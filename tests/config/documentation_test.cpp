@@ -51,9 +51,9 @@ TEST(Documentation, ExplainsEveryKeyOfARig) {
   check("`[camera.pose]`", replaced(goodRig(), "[camera.pose]", "[camera.pose]\n" + kUnknown));
   check("`[markers]`", replaced(goodRig(), "[markers]", "[markers]\n" + kUnknown));
   check("`[simulation]`", replaced(goodRig(), "[simulation]", "[simulation]\n" + kUnknown));
-  for (const std::string table :
-       {"[helicopter]", "[helicopter.parameters]", "[helicopter.parameters.upper]", "[tracking]", "[flight]",
-        "[safety]", "[transmitter]", "[simulation.noise]", "[[simulation.camera]]"})
+  for (const std::string table : {"[helicopter]", "[helicopter.parameters]", "[helicopter.parameters.upper]",
+                                  "[tracking]", "[calibration]", "[flight]", "[safety]", "[transmitter]",
+                                  "[simulation.noise]", "[[simulation.camera]]"})
     check("`" + table + "`", goodRig() + table + "\n" + kUnknown);
 }
 

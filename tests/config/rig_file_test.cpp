@@ -59,6 +59,11 @@ tilt_limit_deg = 45
 descent_speed_m_s = 0.4
 [tracking]
 gate_chi2 = 12.0
+[calibration]
+method = "particle-filter"
+guess_rotation_deg = 30.0
+particles = 4000
+kept_frames = 200
 [simulation.noise]
 outliers = 0.05
 [transmitter]
@@ -77,6 +82,10 @@ kind = "simulated"
   EXPECT_DOUBLE_EQ(rig.safety.tilt_limit, toRadians(45.0));
   EXPECT_EQ(rig.safety.descent_speed, 0.4);
   EXPECT_EQ(rig.tracking.gate_chi2, 12.0);
+  EXPECT_EQ(rig.calibrator, "particle-filter");
+  EXPECT_DOUBLE_EQ(rig.calibration.guess.rotation_rad, toRadians(30.0));
+  EXPECT_EQ(rig.calibration.particle_filter.particles, 4000);
+  EXPECT_EQ(rig.calibration.growing_gauss_newton.kept_frames, 200);
   EXPECT_EQ(rig.simulation.noise.outliers, 0.05);
 }
 

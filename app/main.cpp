@@ -5,6 +5,7 @@
 #include "app/detect.h"
 #include "app/experiment.h"
 #include "app/fly.h"
+#include "app/recover.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #ifdef HELICAL_HAS_WINDOW
@@ -68,6 +69,7 @@ int main(int argc, char** argv) {
   helical::addFlyCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
   helical::addExperimentCommand(app, exit_code);
+  helical::addRecoverCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

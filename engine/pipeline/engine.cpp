@@ -163,6 +163,7 @@ struct Engine::Implementation {
 
   FlightTap* const tap;
   Announcer announcer;
+  std::array<bool, kMaxCameras> was_hidden{};  ///< flight thread
   TimeNs rate_since = 0;
   std::uint64_t ticks_then = 0;
   double ticks_per_second = 0.0;
@@ -186,7 +187,8 @@ void Engine::Implementation::capture(std::size_t index, const std::stop_token& s
 }
 
 void Engine::Implementation::hide(std::size_t camera, bool hide_it) {
-  if (loop.snapshot().cameras[camera].hidden == hide_it) return;
+  if (was_hidden[camera] == hide_it) return;
+  was_hidden[camera] = hide_it;
   loop.hideCamera(cameraId(static_cast<int>(camera)), hide_it);
   if (tap != nullptr) tap->onHidden(cameraId(static_cast<int>(camera)), hide_it, clock->now());
 }
@@ -237,7 +239,7 @@ void Engine::Implementation::takeCalibrations(TimeNs now) {
     const char* method = anew->calibration->calibrator().name();
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "calibrates anew by %s", method);
-    raise(announcer.event(now, Severity::kInfo, i, text.data()));
+    if (loop.calibration(camera) != nullptr) raise(announcer.event(now, Severity::kInfo, i, text.data()));
     loop.swapCalibration(camera, anew->calibration);
     if (tap != nullptr) tap->onCalibration(camera, method, anew->seed, now);
     new_calibrations[i].giveBack(std::move(anew));
@@ -278,7 +280,7 @@ void Engine::Implementation::measureRate(EngineSnapshot& snapshot) {
 
 void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {
   const CameraConfig& camera = rig.cameras[index];
-  if (!camera.pose_is_guess) return;
+  if (!camera.camera_from_world) return;  // nothing to start from
   // Another seed each time: a restart should not repeat the luck of the last one.
   const std::uint64_t seed = rig.simulation.seed + index + kMaxCameras * ++calibrations_made;
   auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body,

@@ -15,6 +15,7 @@ namespace helical {
 namespace {
 
 constexpr int kCompressionLevel = 1;
+constexpr const char* kCure = "choose a folder that can be written to, on a disk with space";
 
 std::string record(McapOpcode opcode, std::string_view content) {
   ByteWriter out;
@@ -37,7 +38,9 @@ std::string compress(const std::string& bytes) {
 
 McapWriter::McapWriter(std::filesystem::path file, const std::string& library) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) refuse("the session cannot be recorded", errno);
+  if (descriptor_ < 0)
+    throw Error(ErrorKind::kInput, std::string("the session cannot be recorded: ") + std::strerror(errno),
+                file_.string(), kCure);
   ByteWriter header;
   header.putText("ros2");
   header.putText(library);
@@ -260,8 +263,7 @@ void McapWriter::write(std::string_view bytes) {
 }
 
 void McapWriter::refuse(const std::string& what, int code) const {
-  throw Error(ErrorKind::kSystem, what + ": " + std::strerror(code), file_.string(),
-              "choose a folder that can be written to, on a disk with space");
+  throw Error(ErrorKind::kSystem, what + ": " + std::strerror(code), file_.string(), kCure);
 }
 
 }  // namespace helical

@@ -20,7 +20,7 @@ namespace helical {
 /// last whole record.
 class McapWriter {
  public:
-  /// Replaces the file.
+  /// Replaces the file. Throws Error(kInput) when it cannot be made.
   McapWriter(std::filesystem::path file, const std::string& library);
   ~McapWriter();  ///< closes the file as it is, without a summary
   McapWriter(const McapWriter&) = delete;

@@ -24,7 +24,7 @@ class Recorder final : public FlightTap {
     kWait,  ///< in lock step: simulated time waits for the disk
   };
 
-  /// Opens the file. Throws Error(kSystem) when that fails.
+  /// Opens the file. Throws Error when that fails.
   Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full);
   ~Recorder() override;  ///< finishes
   Recorder(const Recorder&) = delete;

@@ -4,6 +4,7 @@
 
 #include "app/detect.h"
 #include "app/experiment.h"
+#include "app/export.h"
 #include "app/fly.h"
 #include "app/recover.h"
 #include "engine/base/error.h"
@@ -55,9 +56,9 @@ int main(int argc, char** argv) {
       "Without a sub-command: the window on the simulated rig.\n"
       "Exit codes: 0 done, 1 the flight or check failed, 2 bad usage or input, 3 a device is missing or "
       "lost.");
-  std::string rig_file, plan = "hover";
+  std::string rig_file, plan = "demonstration";
   app.add_option("--rig", rig_file, "Rig file for the window");
-  app.add_option("--plan", plan, "Flight plan for the window: hover, waypoints, or a file");
+  app.add_option("--plan", plan, "Flight plan for the window: demonstration, hover, waypoints, or a file");
   int exit_code = 0;
   // These two belong to the window: a flight on another rig than the one that was named would be a bad
   // surprise.
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
   helical::addFlyCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
   helical::addExperimentCommand(app, exit_code);
+  helical::addExportCommand(app, exit_code);
   helical::addRecoverCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {

@@ -68,7 +68,9 @@ void printFirstImage(qint64 since_process_start) {
 
 }  // namespace
 
-int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool auto_take_off) {
+int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool demonstration) {
+  // What there is to see of it are particles that gather where the camera is.
+  if (demonstration) rig.calibrator = "particle-filter";
   giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
   requireDisplay();
   preferGlx();
@@ -85,7 +87,7 @@ int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool
   theme::apply(application);
 
   WindowOptions options;
-  options.auto_take_off = auto_take_off;
+  options.auto_take_off = demonstration;
   options.layout_file = QStandardPaths::writableLocation(QStandardPaths::AppConfigLocation) + "/layout.ini";
   MainWindow window(rig, options);
   QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);

@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/camera_perturbation.h"
@@ -61,15 +62,16 @@ CalibrationPanel::CalibrationPanel(const RigConfig& rig, const std::vector<std::
   line->addWidget(makeLabel(tr("Method"), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft));
   line->addWidget(methods_, 1);
   layout->addLayout(line);
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-    if (rig.cameras[i].pose_is_guess) layout->addWidget(buildRow(rig.cameras[i], static_cast<int>(i)));
-  if (rows_.empty()) {
-    methods_->setEnabled(false);
-    auto* note =
-        makeLabel(tr("Every camera has a known place."), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft);
-    note->setWordWrap(true);
-    layout->addWidget(note);
+  nobody_ =
+      makeLabel(tr("No camera is calibrated in flight."), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft);
+  nobody_->setWordWrap(true);
+  layout->addWidget(nobody_);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    QWidget* box = buildRow(rig.cameras[i], static_cast<int>(i));
+    box->setVisible(rig.cameras[i].pose_is_guess);
+    layout->addWidget(box);
   }
+  showOnlyLearners();
   layout->addStretch(1);
 }
 
@@ -101,6 +103,7 @@ QWidget* CalibrationPanel::buildRow(const CameraConfig& config, int camera) {
           [this, camera] { Q_EMIT restartRequested(cameraId(camera)); });
 
   auto* box = new QWidget;
+  row.box = box;
   auto* grid = new QGridLayout(box);
   grid->setContentsMargins(0, 4, 0, 2);
   grid->setHorizontalSpacing(8);
@@ -156,15 +159,25 @@ void CalibrationPanel::showRow(const Row& row, const EngineSnapshot& snapshot) {
 void CalibrationPanel::show(const EngineSnapshot& snapshot) {
   for (const Row& row : rows_) {
     const CameraSnapshot& state = snapshot.cameras[static_cast<std::size_t>(row.camera)];
+    if (state.calibration_method == nullptr) continue;
+    // A camera whose pose was given learns a new one once it is knocked.
+    row.box->show();
     showRow(row, snapshot);
-    if (state.calibration_method != nullptr && !methods_->view()->isVisible())
-      methods_->setCurrentText(QString::fromUtf8(state.calibration_method));
+    if (!methods_->view()->isVisible()) methods_->setCurrentText(QString::fromUtf8(state.calibration_method));
   }
+  showOnlyLearners();
+}
+
+void CalibrationPanel::showOnlyLearners() {
+  const bool any =
+      std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return !row.box->isHidden(); });
+  nobody_->setVisible(!any);
+  methods_->setEnabled(any);
 }
 
 QString CalibrationPanel::state(int camera) const {
   for (const Row& row : rows_)
-    if (row.camera == camera) return row.state->text();
+    if (row.camera == camera && !row.box->isHidden()) return row.state->text();
   return {};
 }
 

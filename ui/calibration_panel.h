@@ -25,7 +25,7 @@ class CalibrationPanel : public QWidget {
   void setHypotheses(int camera, int total);
 
   QComboBox* methods() const { return methods_; }
-  /// The word that is shown for a camera; empty for one that is not in the list.
+  /// The word that is shown for a camera; empty for one that does not learn.
   QString state(int camera) const;
 
  Q_SIGNALS:
@@ -35,6 +35,7 @@ class CalibrationPanel : public QWidget {
  private:
   struct Row {
     int camera = 0;
+    QWidget* box = nullptr;
     int hypotheses = 0;
     QLabel* state = nullptr;
     QLabel* position_sigma = nullptr;
@@ -46,8 +47,11 @@ class CalibrationPanel : public QWidget {
   QWidget* buildRow(const CameraConfig& config, int camera);
   static void showRow(const Row& row, const EngineSnapshot& snapshot);
 
+  void showOnlyLearners();
+
   QComboBox* methods_;
-  std::vector<Row> rows_;
+  QLabel* nobody_;
+  std::vector<Row> rows_;  ///< of all cameras; those that never learnt are not shown
 };
 
 }  // namespace helical

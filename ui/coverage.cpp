@@ -6,16 +6,20 @@
 namespace helical {
 namespace {
 
-constexpr int kCells = 40;          // each way
-constexpr double kUnseen = -400.0;  // px beyond the border: further out it makes no difference
+constexpr double kNearest = 0.05;  // m, in front of the camera
+constexpr int kCells = 40;         // each way
+constexpr int kBisections = 10;    // to a sixth of a millimetre
+constexpr double kUnseen = -1.0;   // px; how far outside does not matter
 
 /// How far inside the image a point is [px]; negative outside.
 double margin(const CoveringCamera& camera, const Eigen::Vector3d& point) {
-  const auto pixel = camera.model->project(camera.camera_from_world * point);
+  const Eigen::Vector3d in_camera = camera.camera_from_world * point;
+  if (in_camera.z() < kNearest) return kUnseen;
+  const auto pixel = camera.model->project(in_camera);
   if (!pixel) return kUnseen;
   const double inside = std::min({pixel->x(), pixel->y(), camera.model->width() - 1.0 - pixel->x(),
                                   camera.model->height() - 1.0 - pixel->y()});
-  return std::max(inside, kUnseen);
+  return inside;
 }
 
 /// The margin of the camera that sees the point second best.
@@ -34,15 +38,25 @@ struct Corner {
   double value = 0.0;
 };
 
-/// Marching squares: where the value passes zero between the corners of one cell.
-void addCell(const std::array<const Corner*, 4>& corners, std::vector<Eigen::Vector3d>& lines) {
+/// Where the value passes zero between two corners. Bisected: near a camera it is anything but linear.
+Eigen::Vector3d crossing(const std::vector<CoveringCamera>& cameras, const Corner& a, const Corner& b) {
+  Eigen::Vector3d in = a.value < 0.0 ? b.point : a.point, out = a.value < 0.0 ? a.point : b.point;
+  for (int i = 0; i < kBisections; ++i) {
+    const Eigen::Vector3d middle = 0.5 * (in + out);
+    (secondBest(cameras, middle) < 0.0 ? out : in) = middle;
+  }
+  return 0.5 * (in + out);
+}
+
+/// Marching squares: the border within one cell.
+void addCell(const std::vector<CoveringCamera>& cameras, const std::array<const Corner*, 4>& corners,
+             std::vector<Eigen::Vector3d>& lines) {
   std::array<Eigen::Vector3d, 4> crossings;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Corner& a = *corners[i];
     const Corner& b = *corners[(i + 1) % 4];
-    if ((a.value < 0.0) == (b.value < 0.0)) continue;
-    crossings[count++] = a.point + (b.point - a.point) * (a.value / (a.value - b.value));
+    if ((a.value < 0.0) != (b.value < 0.0)) crossings[count++] = crossing(cameras, a, b);
   }
   for (std::size_t i = 0; i + 1 < count; i += 2) lines.insert(lines.end(), {crossings[i], crossings[i + 1]});
 }
@@ -65,7 +79,8 @@ std::vector<Eigen::Vector3d> coverageContours(const std::vector<CoveringCamera>&
     for (std::size_t row = 0; row < kCells; ++row)
       for (std::size_t column = 0; column < kCells; ++column) {
         const std::size_t first = row * kCorners + column;
-        addCell({&grid[first], &grid[first + 1], &grid[first + kCorners + 1], &grid[first + kCorners]},
+        addCell(cameras,
+                {&grid[first], &grid[first + 1], &grid[first + kCorners + 1], &grid[first + kCorners]},
                 lines);
       }
   }

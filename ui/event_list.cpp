@@ -3,6 +3,7 @@
 #include <QPainter>
 #include <QScrollBar>
 #include <QStyledItemDelegate>
+#include <algorithm>
 
 #include "ui/format.h"
 #include "ui/theme.h"
@@ -11,6 +12,7 @@ namespace helical {
 namespace {
 
 constexpr int kLongestList = 1000;
+constexpr int kScrollBar = 10;
 constexpr int kTextLeft = 82;
 constexpr int kSeverityRole = Qt::UserRole;
 constexpr int kTimeRole = Qt::UserRole + 1;
@@ -46,7 +48,8 @@ class EventDelegate : public QStyledItemDelegate {
 
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     const auto* view = qobject_cast<const QListWidget*>(option.widget);
-    const int width = std::max(80, (view ? view->viewport()->width() : 270) - kTextLeft - 8);
+    // As if the scroll bar were there: it comes later, and then lines must not need more room than they have.
+    const int width = std::max(80, (view ? view->width() - kScrollBar : 270) - kTextLeft - 8);
     const QRect box = QFontMetrics(theme::uiFont(8.4))
                           .boundingRect(QRect(0, 0, width, 1000), Qt::TextWordWrap, index.data().toString());
     return {100, box.height() + 7};
@@ -64,8 +67,10 @@ class EventDelegate : public QStyledItemDelegate {
                       index.data(kTimeRole).toString());
     painter->setFont(theme::uiFont(8.4));
     painter->setPen(theme::kText);
-    painter->drawText(QRect(r.left() + kTextLeft, r.top() + 3, r.width() - kTextLeft - 8, r.height() - 4),
-                      Qt::TextWordWrap, index.data().toString());
+    const auto* view = qobject_cast<const QListWidget*>(option.widget);
+    const int room = std::min(r.width(), view ? view->width() - kScrollBar : r.width()) - kTextLeft - 8;
+    painter->drawText(QRect(r.left() + kTextLeft, r.top() + 3, room, r.height() - 4), Qt::TextWordWrap,
+                      index.data().toString());
   }
 };
 

@@ -59,6 +59,14 @@ QWidget* framed(QWidget* content) {
   return box;
 }
 
+QScrollArea* scrolled(QWidget* content) {
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(content);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  return scroll;
+}
+
 }  // namespace
 
 MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig_(rig), options_(options) {
@@ -165,19 +173,15 @@ void MainWindow::buildPanels() {
   plots_->addControls(*plots_title);
   plots_dock_ = addPanel(plots_title, framed(plots_), Qt::BottomDockWidgetArea);
   flight_ = new FlightPanel;
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(flight_);
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  flight_dock_ =
-      addPanel(new PanelTitle(tr("Flight"), theme::kActive), framed(scroll), Qt::RightDockWidgetArea);
+  flight_dock_ = addPanel(new PanelTitle(tr("Flight"), theme::kActive), framed(scrolled(flight_)),
+                          Qt::RightDockWidgetArea);
   calibration_ = new CalibrationPanel(rig_, Engine::calibrators());
   connect(calibration_, &CalibrationPanel::methodChosen, this, &MainWindow::chooseMethod);
   connect(calibration_, &CalibrationPanel::restartRequested, this, [this](CameraId camera) {
     if (engine_) engine_->restartCalibration(camera);
   });
-  calibration_dock_ = addPanel(new PanelTitle(tr("Calibration"), theme::kActive), framed(calibration_),
-                               Qt::RightDockWidgetArea);
+  calibration_dock_ = addPanel(new PanelTitle(tr("Calibration"), theme::kActive),
+                               framed(scrolled(calibration_)), Qt::RightDockWidgetArea);
   events_ = new EventList;
   events_dock_ =
       addPanel(new PanelTitle(tr("Events"), theme::kActive), framed(events_), Qt::RightDockWidgetArea);

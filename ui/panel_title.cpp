@@ -83,7 +83,8 @@ void PanelTitle::paintEvent(QPaintEvent*) {
 
   int right = width() - kGap;
   for (int i = 0; i < layout_->count(); ++i)
-    if (const QWidget* widget = layout_->itemAt(i)->widget()) right = std::min(right, widget->x() - 8);
+    if (const QWidget* widget = layout_->itemAt(i)->widget(); widget != nullptr && !widget->isHidden())
+      right = std::min(right, widget->x() - 8);
 
   painter.setFont(theme::capsFont(7.6));
   const QFontMetrics metrics(painter.font());

@@ -40,10 +40,13 @@ PlotLane followed(const QString& title, const QString& unit, FlightColumn measur
   return result;
 }
 
+/// Cameras without a known place first; any other learns one when it is knocked.
 std::vector<int> learningCameras(const RigConfig& rig) {
   std::vector<int> cameras;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-    if (rig.cameras[i].pose_is_guess) cameras.push_back(static_cast<int>(i));
+  for (const bool guessed : {true, false})
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+      if (rig.cameras[i].camera_from_world && rig.cameras[i].pose_is_guess == guessed)
+        cameras.push_back(static_cast<int>(i));
   return cameras;
 }
 
@@ -55,20 +58,30 @@ bool simulated(const RigConfig& rig, int camera) {
   return rig.cameras[static_cast<std::size_t>(camera)].source == "sim";
 }
 
-/// Error solid where it is known, sigma dashed.
+struct ConvergenceColumns {
+  CameraColumn error;
+  CameraColumn sigma;
+  CameraColumn bound;
+};
+
+/// Error solid where it is known, sigma dashed, the Cramer-Rao bound dotted.
 PlotLane convergence(const RigConfig& rig, const TickHistory& history, const QString& title,
-                     const QString& unit, CameraColumn error, CameraColumn sigma, double scale) {
+                     const QString& unit, const ConvergenceColumns& columns, double scale) {
   PlotLane result = lane(title, unit, 1.0, 2);
   result.logarithmic = true;
   result.one_sided = true;
   const std::vector<int> cameras = learningCameras(rig);
-  for (const int camera : cameras) {
-    const QString name = cameras.size() > 1 ? nameOf(rig, camera) + QStringLiteral(" ") : QString();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const int camera = cameras[i];
+    // The first one's names stand for all: the colour tells the camera.
+    const auto name = [first = i == 0](const QString& text) { return first ? text : QString(); };
     const QColor color = theme::cameraColor(camera);
     result.series.push_back(
-        line(name + tr("sigma"), history.column(camera, sigma), color, scale, Qt::DashLine));
+        line(name(tr("sigma")), history.column(camera, columns.sigma), color, scale, Qt::DashLine));
+    result.series.push_back(
+        line(name(tr("bound")), history.column(camera, columns.bound), theme::kMuted, scale, Qt::DotLine));
     if (simulated(rig, camera))
-      result.series.push_back(line(name + tr("error"), history.column(camera, error), color, scale));
+      result.series.push_back(line(name(tr("error")), history.column(camera, columns.error), color, scale));
   }
   return result;
 }
@@ -128,19 +141,24 @@ PlotPage calibrationPage(const RigConfig& rig, const TickHistory& history) {
   PlotPage page;
   page.name = tr("Calibration");
   page.tip = tr("How the cameras without a known place find theirs");
-  page.empty = tr("Every camera of this rig has a known place: nothing is calibrated in flight.");
+  page.empty = tr("No camera of this rig is calibrated in flight.");
   if (learningCameras(rig).empty()) return page;
   PlotLane effective = lane(tr("Effective sample size"), {}, 100.0, 0);
   effective.one_sided = true;
   for (const int camera : learningCameras(rig))
-    effective.series.push_back(line(nameOf(rig, camera), history.column(camera, CameraColumn::kEffective),
+    effective.series.push_back(line(history.cameras() <= 4 ? nameOf(rig, camera) : QString(),
+                                    history.column(camera, CameraColumn::kEffective),
                                     theme::cameraColor(camera)));
-  page.lanes = {convergence(rig, history, tr("Camera position"), tr("mm"), CameraColumn::kPositionError,
-                            CameraColumn::kPositionSigma, 1e3),
-                effective,
-                convergence(rig, history, tr("Camera orientation"), tr("deg"),
-                            CameraColumn::kOrientationError, CameraColumn::kOrientationSigma, 1.0),
-                residuals(rig, history)};
+  page.lanes = {
+      convergence(rig, history, tr("Camera position"), tr("mm"),
+                  {CameraColumn::kPositionError, CameraColumn::kPositionSigma, CameraColumn::kPositionBound},
+                  1e3),
+      effective,
+      convergence(
+          rig, history, tr("Camera orientation"), tr("deg"),
+          {CameraColumn::kOrientationError, CameraColumn::kOrientationSigma, CameraColumn::kOrientationBound},
+          1.0),
+      residuals(rig, history)};
   return page;
 }
 

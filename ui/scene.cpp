@@ -42,8 +42,8 @@ using shapes::rod;
 
 constexpr double kFrustumLength = 0.45;
 constexpr double kGridReach = 6.0;
-constexpr double kSeenSpread = 0.02;  // m
-constexpr double kSeenAngle = toRadians(0.75);
+constexpr double kSeenSpread = 0.02, kTellingSpread = 2.0;  // m
+constexpr double kSeenAngle = toRadians(0.75), kTellingAngle = toRadians(50.0);
 
 const QColor kShell(0xd8, 0xdf, 0xe8);
 const QColor kGlass(0x1c, 0x33, 0x4a);
@@ -445,14 +445,16 @@ void Scene::showCameras(const SceneFrame& frame) {
 
 void Scene::showSpread(const CameraActors& actors, const SceneCameraPose& pose) {
   const bool shown = pose.known && pose.has_spread;
-  // Once they are as thin as a line they only look like one more line.
-  actors.ellipsoid->SetVisibility(shown && pose.spread_radii.maxCoeff() > kSeenSpread);
-  actors.cone->SetVisibility(shown && pose.spread_angle > kSeenAngle);
+  // As thin as a line they look like one more line; as large as the room they say nothing.
+  actors.ellipsoid->SetVisibility(shown && pose.spread_radii.maxCoeff() > kSeenSpread &&
+                                  pose.spread_radii.maxCoeff() < kTellingSpread);
+  actors.cone->SetVisibility(shown && pose.spread_angle > kSeenAngle && pose.spread_angle < kTellingAngle);
   if (!shown) return;
   const RigidTransform place{pose.spread_axes, pose.camera_from_world.inverseTranslation()};
   actors.spread->SetMatrix(matrixOf(place).data());
   actors.spread->Scale(pose.spread_radii.data());
-  const double length = 1.6 * kFrustumLength, width = length * std::tan(std::min(pose.spread_angle, 0.8));
+  const double length = 1.6 * kFrustumLength,
+               width = length * std::tan(std::min(pose.spread_angle, kTellingAngle));
   actors.cone_shape->Identity();
   actors.cone_shape->Scale(width, width, length);
 }

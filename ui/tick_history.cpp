@@ -91,6 +91,9 @@ void TickHistory::addCamera(const EngineSnapshot& tick, int camera) {
                : Vector6d::Constant(kNothing);
   set(camera, CameraColumn::kOrientationError, toDegrees(error.head<3>().norm()));
   set(camera, CameraColumn::kPositionError, error.tail<3>().norm());
+  const auto& bound = state.calibration_bound;
+  set(camera, CameraColumn::kPositionBound, bound ? bound->position_m : kNothing);
+  set(camera, CameraColumn::kOrientationBound, bound ? toDegrees(bound->orientation_rad) : kNothing);
   set(camera, CameraColumn::kEffective,
       state.effective_sample_size > 0.0 ? state.effective_sample_size : kNothing);
 

@@ -36,6 +36,8 @@ enum class CameraColumn {
   kOrientationError,  ///< degrees
   kPositionSigma,     ///< m, of a calibrating camera
   kOrientationSigma,  ///< degrees
+  kPositionBound,     ///< m: no estimate can be better
+  kOrientationBound,  ///< degrees
   kEffective,         ///< effective sample size
   kResidual,          ///< px
   kSelected,          ///< bits of the markers used for the pose

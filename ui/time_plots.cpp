@@ -212,10 +212,11 @@ void TimePlots::styleValueAxis(Lane& lane) {
     const QSharedPointer<QCPAxisTickerLog> decades(new QCPAxisTickerLog);
     value->setTicker(decades);
     value->setNumberFormat(QStringLiteral("g"));
-    value->setNumberPrecision(4);
+    value->setNumberPrecision(6);
   } else {
     value->setNumberFormat(QStringLiteral("f"));
-    value->setNumberPrecision(std::max(0, lane.description.decimals - 1));
+    value->setNumberPrecision(lane.description.decimals > 1 ? lane.description.decimals - 1
+                                                            : lane.description.decimals);
     value->ticker()->setTickCount(3);
   }
 }

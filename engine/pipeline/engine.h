@@ -45,8 +45,9 @@ class Engine {
   /// Orders of the reading thread; wait-free for the engine.
   /// All boards before a camera from now on, for real cameras too: its frames show them.
   void setBoards(CameraId camera, const WhiteBoards& boards);
-  /// Cameras that have only a first guess start anew from it with this method, and leave the control set
-  /// until they are admitted again. Throws Error(kInput) for an unknown one.
+  /// Cameras that learn their pose start anew from their first guess with this method, and leave the control
+  /// set until they are admitted again; the others will use it once they are knocked. Throws Error(kInput)
+  /// for an unknown one.
   void setCalibrator(const std::string& method);
   const std::string& calibrator() const;
   static std::vector<std::string> calibrators();  ///< in the order users are shown

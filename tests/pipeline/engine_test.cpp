@@ -98,6 +98,7 @@ TEST(Engine, PicturesComeWithWhatWasFoundInThem) {
 
 TEST(Engine, TheMethodChangesInFlightAndItsParticlesAreSeen) {
   RigConfig rig = test::shippedRig("paper", 4);
+  rig.calibrator = "particle-filter";
   giveFirstGuesses(rig, 0.26, 0.4, 4, false);
   Engine engine(rig, loadPlan(planPath("hover")));
   engine.start();

@@ -21,6 +21,7 @@ RigConfig WindowTest::shippedRig(bool images) {
 
 RigConfig WindowTest::calibratingRig(bool images) {
   RigConfig rig = shippedRig(images);
+  rig.calibrator = "particle-filter";
   giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, 1, false);
   return rig;
 }

@@ -1,12 +1,17 @@
 #include <Eigen/Geometry>
 #include <QDir>
+#include <QPushButton>
 #include <QSet>
 #include <QToolButton>
 #include <cmath>
 
 #include "tests/ui/window_fixture.h"
+#include "ui/alarm_bar.h"
 #include "ui/camera_pane.h"
+#include "ui/camera_view.h"
 #include "ui/camera_wall.h"
+#include "ui/plot_deck.h"
+#include "ui/preflight_popup.h"
 #include "ui/scene_view.h"
 #include "ui/top_bar.h"
 
@@ -59,6 +64,31 @@ TEST_F(WindowPictures, TheStatesOfAFlight) {
   ASSERT_NO_FATAL_FAILURE(clickView("Top view"));
   ASSERT_NO_FATAL_FAILURE(waitForScene());
   save("stopped");
+}
+
+TEST_F(WindowPictures, ACameraThatLearnsABoardAndAnAlarm) {
+  open(calibratingRig(true));
+  ASSERT_TRUE(
+      eventually([this] { return snapshot().cameras[2].estimate.status == CameraStatus::kCalibrated; }));
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  CameraView& view = window_->cameras().pane(1).view();
+  click(window_->cameras().pane(1).boardButton());
+  QTest::mousePress(&view, Qt::LeftButton, {}, view.toWidget({150, 60}).toPoint());
+  QTest::mouseMove(&view, view.toWidget({480, 380}).toPoint());
+  QTest::mouseRelease(&view, Qt::LeftButton, {}, view.toWidget({480, 380}).toPoint());
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[1].centroids == 0; }));
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("board");
+  window_->plots().showSheet(PlotDeck::kFeatures);
+  click(window_->topBar().readinessButton());
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("features");
+  window_->topBar().preflight().close();
+
+  for (const int camera : {0, 2}) click(window_->cameras().pane(camera).hideButton());
+  ASSERT_TRUE(eventually([this] { return window_->alarms().unacknowledged() > 0; }));
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("alarm");
 }
 
 TEST_F(WindowPictures, SixteenCamerasWithoutImages) {

@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QThread>
 #include <QTimer>
 #include <QToolButton>
 
@@ -107,6 +108,19 @@ TEST_F(WindowTest, PlotsMissNoTick) {
   open(false);
   ASSERT_TRUE(eventually([this] { return snapshot().tick > 100; }));
   EXPECT_EQ(engine_->lostTicks(), 0U);
+  EXPECT_TRUE(eventually(
+      [this] { return window_->plots().history().end() >= static_cast<std::int64_t>(snapshot().tick) - 1; }));
+}
+
+TEST_F(WindowTest, AWindowThatStandsStillHoldsNothingUpAndShowsTheNewestStateAfter) {
+  open(false);
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  const std::uint64_t before = snapshot().tick;
+  QThread::msleep(2000);  // as a dialog of the desktop would
+  ASSERT_TRUE(eventually([&] { return snapshot().tick > before; }));
+  EXPECT_GT(snapshot().tick, before + 60) << "not the states it missed, one after the other";
+  EXPECT_EQ(snapshot().phase, FlightPhase::kFlying);
+  EXPECT_EQ(engine_->lostTicks(), 0U) << "and the plots have all of them";
   EXPECT_TRUE(eventually(
       [this] { return window_->plots().history().end() >= static_cast<std::int64_t>(snapshot().tick) - 1; }));
 }

@@ -13,7 +13,7 @@ struct KnockEvidence {
   TimeNs exposure = 0;
   int in_view = 0;   ///< balls that this camera should and could show: the fewer of predicted and found
   int agreeing = 0;  ///< of those, the ones that lie where the pose says
-  bool pose_is_sure = false;  ///< another camera agrees with the pose, or others outnumber this one
+  bool pose_is_sure = false;  ///< other cameras agree with it
 };
 
 /// Tells a knocked camera from one that is covered, confused by a few false markers or ahead of a pose that

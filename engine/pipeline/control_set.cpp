@@ -8,7 +8,8 @@ namespace {
 
 constexpr TimeNs kTeaching = 50 * kNanosecondsPerMillisecond;  // a view is of now for so long
 constexpr int kTeachers = 2;
-constexpr int kSureBalls = 3;  // that another camera sees where the pose says: then it is not the pose
+constexpr int kSureBalls = 3;  // that another camera sees where the pose says
+constexpr int kWitnesses = 2;  // such cameras: then it is not the pose that is wrong
 
 }  // namespace
 
@@ -25,9 +26,9 @@ ControlSet::ControlSet(const RigConfig& rig)
     estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
     learning_[i] = camera.pose_is_guess;
     rank_[i] = camera.pose_is_guess ? 1 : 0;
-    calibrations_[i] = std::make_unique<CameraCalibration>(
-        rig.calibrator, camera.model, markers_, *camera.camera_from_world, rig.simulation.seed + i,
-        rig.calibration);
+    calibrations_[i] =
+        std::make_unique<CameraCalibration>(rig.calibrator, camera.model, markers_, *camera.camera_from_world,
+                                            rig.simulation.seed + i, rig.calibration);
   }
   // A rank for each camera that may be knocked, one after the other.
   for (std::size_t r = 0; r <= cameras_ + 1; ++r)
@@ -75,12 +76,13 @@ bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracke
   evidence.exposure = observation.exposure;
   evidence.in_view = std::min(observation.count, track.predicted_count);
   evidence.agreeing = track.agreeing_count;
+  int witnesses = 0;
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraTrack& other = tracker.track(cameraId(static_cast<int>(i)));
-    if (i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
-        observation.exposure - other.exposure < kTeaching)
-      evidence.pose_is_sure = true;
+    witnesses += i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
+                 observation.exposure - other.exposure < kTeaching;
   }
+  evidence.pose_is_sure = witnesses >= kWitnesses;
   return detectors_[index].add(evidence);
 }
 

@@ -50,6 +50,15 @@ constexpr OptionField<RotorParameters> kRotorFields[] = {
     {"phase_offset_deg", &RotorParameters::phase_offset, kDegree, -180.0, 180.0},
 };
 
+constexpr OptionField<ColourRange> kColourFields[] = {
+    {"hue_low", &ColourRange::hue_low},
+    {"hue_high", &ColourRange::hue_high},
+    {"saturation_low", &ColourRange::saturation_low},
+    {"saturation_high", &ColourRange::saturation_high},
+    {"value_low", &ColourRange::value_low},
+    {"value_high", &ColourRange::value_high},
+};
+
 constexpr OptionField<MarkerOptions> kMarkerFields[] = {
     {"hue_low", &MarkerOptions::hue_low},
     {"hue_high", &MarkerOptions::hue_high},
@@ -201,7 +210,15 @@ void readHelicopter(TomlTable table, RigConfig& rig) {
 }
 
 void readMarkerOptions(TomlTable table, MarkerOptions& options) {
-  readAndValidate(table, kMarkerFields, options);
+  readOptions(table, kMarkerFields, options);
+  const std::string estimator = table.text("estimator").value_or("disc");
+  if (estimator != "disc" && estimator != "binary")
+    table.fail("estimator", "unknown estimator '" + estimator + "'", "use \"disc\" or \"binary\"");
+  options.estimator = estimator == "disc" ? CentroidEstimator::kDisc : CentroidEstimator::kBinary;
+  for (TomlTable& colour : table.tables("colour"))
+    readWholeTable(colour, kColourFields, options.other_colours.emplace_back());
+  table.finish();
+  table.locate([&] { validate(options); });
 }
 
 void readTrackerOptions(TomlTable table, TrackerOptions& options) {

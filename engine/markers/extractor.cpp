@@ -6,10 +6,17 @@
 
 #include "engine/base/clock.h"
 #include "engine/markers/background_model.h"
+#include "engine/markers/disc_fit.h"
 #include "engine/markers/region_finder.h"
 #include "engine/markers/region_selection.h"
 
 namespace helical {
+namespace {
+
+/// px per axis: what the pixels' noise does not explain, such as the edge's sampling.
+constexpr double kDiscSigma = 0.01;
+
+}  // namespace
 
 struct Extractor::Workspace {
   explicit Workspace(const MarkerOptions& marker_options)
@@ -24,6 +31,7 @@ struct Extractor::Workspace {
   void resize(const ImageView& image);
   CellRule ruleOf(std::size_t colour) const;
   void findMarkers(const ImageView& image, Observation& observation);
+  Centroid locate(const ColouredRegion& region, const CellGrid& grid);
 
   MarkerOptions options;
   std::vector<ColourRange> colours;
@@ -31,6 +39,7 @@ struct Extractor::Workspace {
   BackgroundModel background;
   RegionFinder finder;
   RegionSelection selection;
+  DiscFit disc_fit;
   int width = 0;
   int height = 0;
   std::optional<PixelFormat> format;
@@ -66,9 +75,15 @@ void Extractor::Workspace::findMarkers(const ImageView& image, Observation& obse
   for (std::size_t i = 0; i < colours.size(); ++i)
     selection.add(finder.find(grid, has_background ? &empty : nullptr, ruleOf(i)), static_cast<int>(i), grid);
   for (const ColouredRegion& region : selection.sorted())
-    observation.centroids[static_cast<std::size_t>(observation.count++)] =
-        binaryCentroid(region, grid, options.centroid_sigma_px);
+    observation.centroids[static_cast<std::size_t>(observation.count++)] = locate(region, grid);
   observation.truncated = selection.truncated();
+}
+
+Centroid Extractor::Workspace::locate(const ColouredRegion& region, const CellGrid& grid) {
+  if (options.estimator == CentroidEstimator::kDisc)
+    if (const auto disc = disc_fit.fit(grid, region.region))
+      return discCentroid(region, *disc, grid, kDiscSigma);
+  return binaryCentroid(region, grid, options.centroid_sigma_px);
 }
 
 Extractor::Extractor(const MarkerOptions& options) {

@@ -16,6 +16,12 @@ struct ColourRange {
   bool operator==(const ColourRange&) const = default;
 };
 
+/// How a marker's centre is found in its region.
+enum class CentroidEstimator {
+  kBinary,  ///< the centre of gravity of the region
+  kDisc     ///< the picture of a shaded ball fitted to the pixels (DiscFit); the region's where that is none
+};
+
 /// How markers are told from everything else (the paper's section IV.B): the first colour is the base's.
 struct MarkerOptions : ColourRange {
   std::vector<ColourRange> other_colours;  ///< looked for each by itself; `Centroid::colour` says which
@@ -25,6 +31,7 @@ struct MarkerOptions : ColourRange {
   int closing_px = 3;
   int minimum_area_px = 9;
   int maximum_area_px = 20000;
+  CentroidEstimator estimator = CentroidEstimator::kDisc;
   /// Standard deviation of a fully visible ball's centroid per axis; measured, see tests/pipeline.
   double centroid_sigma_px = 0.10;
 };

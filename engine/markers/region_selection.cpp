@@ -59,4 +59,16 @@ Centroid binaryCentroid(const ColouredRegion& coloured, const CellGrid& grid, do
   return centroid;
 }
 
+Centroid discCentroid(const ColouredRegion& coloured, const Disc& disc, const CellGrid& grid,
+                      double sigma_px) {
+  const double size = cellSize(grid);
+  Centroid centroid;
+  centroid.pixel = Eigen::Vector2d::Constant(cellOrigin(grid)) + size * disc.centre;
+  centroid.covariance = size * size * disc.covariance + sigma_px * sigma_px * Eigen::Matrix2d::Identity();
+  centroid.radius_px = size * disc.radius;
+  centroid.area_px = disc.seen_share * kPi * centroid.radius_px * centroid.radius_px;
+  centroid.colour = coloured.colour;
+  return centroid;
+}
+
 }  // namespace helical

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/markers/cell_grid.h"
+#include "engine/markers/disc_fit.h"
 #include "engine/markers/marker_options.h"
 #include "engine/markers/observation.h"
 #include "engine/markers/region_labeller.h"
@@ -38,5 +39,8 @@ class RegionSelection {
 
 /// The centre of gravity of a region's cells.
 Centroid binaryCentroid(const ColouredRegion& region, const CellGrid& grid, double sigma_px);
+
+/// The centre of the disc that was fitted to a region; `sigma_px` is what the fit does not know of, per axis.
+Centroid discCentroid(const ColouredRegion& region, const Disc& disc, const CellGrid& grid, double sigma_px);
 
 }  // namespace helical

@@ -43,8 +43,14 @@ void expectSame(const Observation& a, const Observation& b) {
   }
 }
 
+MarkerOptions binaryOptions() {
+  MarkerOptions options;
+  options.estimator = CentroidEstimator::kBinary;
+  return options;
+}
+
 std::vector<MarkerOptions> optionsToTry() {
-  MarkerOptions usual;
+  const MarkerOptions usual = binaryOptions();
   MarkerOptions bare = usual;
   bare.opening_px = bare.closing_px = bare.minimum_area_px = 1;
   MarkerOptions wide = usual;
@@ -109,7 +115,7 @@ TEST(Extractor, FindsADiscWhereItIs) {
   Picture picture(640, 480);
   picture.fill(120, 120, 120);
   picture.drawDisc(300.4, 200.7, 6.0, 45, 190, 50);
-  Extractor extractor(MarkerOptions{});
+  Extractor extractor(binaryOptions());
   extractor.disableBackground();
   Observation found;
   extractor.extract(picture.view(), found);
@@ -121,6 +127,55 @@ TEST(Extractor, FindsADiscWhereItIs) {
   EXPECT_DOUBLE_EQ(disc.covariance(0, 0),
                    MarkerOptions{}.centroid_sigma_px * MarkerOptions{}.centroid_sigma_px);
   EXPECT_DOUBLE_EQ(disc.covariance(0, 1), 0.0);
+}
+
+TEST(Extractor, FitsADiscWhereItIs) {
+  Random random(3);
+  for (const PixelFormat format : {PixelFormat::kBgr8, PixelFormat::kRgb8, PixelFormat::kBayerRg8}) {
+    Picture picture(640, 480);
+    picture.fill(120, 120, 120);
+    picture.drawDisc(300.4, 200.7, 7.0, 45, 190, 50);
+    picture.addNoise(random, 2.0);
+    Extractor extractor(MarkerOptions{});
+    extractor.disableBackground();
+    Observation found;
+    const Picture seen = picture.as(format);
+    extractor.extract(seen.view(), found);
+    ASSERT_EQ(found.count, 1);
+    const Centroid& disc = found.centroids[0];
+    const double tolerance = format == PixelFormat::kBayerRg8 ? 0.1 : 0.03;
+    EXPECT_NEAR(disc.pixel.x(), 300.4, tolerance);
+    EXPECT_NEAR(disc.pixel.y(), 200.7, tolerance);
+    EXPECT_NEAR(disc.radius_px, 7.0, 2.0 * tolerance);
+    EXPECT_NEAR(disc.area_px, 154.0, 5.0);
+    EXPECT_LT(disc.covariance.trace(), 2.0 * tolerance * tolerance);
+  }
+}
+
+TEST(Extractor, FindsEachColourByItself) {
+  constexpr std::array kPlaces{50.0, 120.0, 200.0};
+  Picture picture(300, 100);
+  picture.fill(120, 120, 120);
+  picture.drawDisc(50, 50, 8, 45, 190, 50);
+  picture.drawDisc(120, 50, 7, 40, 40, 200);
+  picture.drawDisc(200, 50, 6, 200, 60, 40);
+  MarkerOptions options;
+  ColourRange red, blue;
+  red.hue_low = 170, red.hue_high = 10;
+  blue.hue_low = 105, blue.hue_high = 130;
+  options.other_colours = {red, blue};
+  for (const PixelFormat format : {PixelFormat::kBgr8, PixelFormat::kRgb8, PixelFormat::kBayerGb8}) {
+    Extractor extractor(options);
+    extractor.disableBackground();
+    Observation found;
+    const Picture seen = picture.as(format);
+    extractor.extract(seen.view(), found);
+    ASSERT_EQ(found.count, 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(found.centroids[i].colour, static_cast<int>(i));
+      EXPECT_NEAR(found.centroids[i].pixel.x(), kPlaces[i], 0.3);
+    }
+  }
 }
 
 TEST(Extractor, FindsNothingUntilItsBackgroundIsTaken) {
@@ -174,7 +229,7 @@ TEST(Extractor, KeepsTheLargestRegionsOfClutter) {
   picture.fill(120, 120, 120);
   for (int i = 0; i < 40; ++i)
     picture.drawDisc(40 + 70 * (i % 8), 40 + 80 * (i / 8), 4 + 0.2 * i, 45, 190, 50);
-  Extractor extractor(MarkerOptions{});
+  Extractor extractor(binaryOptions());
   extractor.disableBackground();
   Observation found;
   extractor.extract(picture.view(), found);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "engine/base/random.h"
+#include "tests/markers/scenes.h"
+
+namespace helical::test {
+
+/// A green ball before a grey wall; `shading` is the share of directed light.
+struct BallPicture {
+  double x = 20.0;
+  double y = 20.0;
+  double radius = 5.0;
+  double shading = 0.5;
+  double hidden_from = 1e9;  ///< from so far to the right of its centre on, something dark is before it
+};
+
+/// 41 x 41 pixels, each the mean of 16 x 16 samples, with noise.
+Picture drawBall(const BallPicture& ball, double noise, Random& random);
+
+}  // namespace helical::test

@@ -22,6 +22,8 @@ constexpr double kSeedRmsPx = 2.0,
 constexpr double kSeedRotation = 0.02, kSeedPosition = 0.06;  // how far off a planar pose may be [rad, m]
 constexpr double kSameRotation = 0.02, kSamePosition = 0.06;
 constexpr int kIterations = 12;
+constexpr int kFairIterations = 4;
+constexpr double kHopelessChi2 = 200.0;
 constexpr double kSettledDecrease = 0.05;  // squared sigmas
 constexpr double kFarthestM = 50.0;
 constexpr int kSeedings = 3, kSeedingPause = 5, kLaterPause = 60;
@@ -56,6 +58,8 @@ void validate(const JointSearchOptions& options) {
           "lock_frames", options.lock_frames, "give prune_frames to 24");
   require(options.lock_inliers > 0.0 && options.lock_inliers <= 1.0, "lock_inliers", options.lock_inliers,
           "give a share above 0");
+  require(options.lock_median > 1.2 && options.lock_median <= 100.0, "lock_median", options.lock_median,
+          "give a number above 1.2");
 }
 
 JointSearch::JointSearch(const JointSearchOptions& options, const CameraModel& camera,
@@ -81,7 +85,7 @@ void JointSearch::clear() {
   waiting_count_ = 0;
   seeds_ = AffineSeeds(camera_, markers_);
   since_seeding_ = seedings_ = 0;
-  count_ = 0;
+  count_ = in_round_count_ = 0;
   in_round_ = decided_ = false;
 }
 
@@ -153,14 +157,30 @@ void JointSearch::beginRound() {
     hypothesis.iterations = 0;
     hypothesis.damping = 1e-3;
   }
+  in_round_count_ = count_;
   in_round_ = true;
 }
 
+/// The one to work on next: those not looked at in this round, then the most promising.
 JointSearch::Hypothesis* JointSearch::unsettled() {
-  const auto end = hypotheses_.begin() + count_;
-  const auto found = std::find_if(hypotheses_.begin(), end,
-                                  [](const Hypothesis& hypothesis) { return !hypothesis.settled; });
-  return found == end ? nullptr : &*found;
+  Hypothesis* next = nullptr;
+  for (int i = 0; i < in_round_count_; ++i) {
+    Hypothesis& each = hypotheses_[static_cast<std::size_t>(i)];
+    if (each.settled) continue;
+    if (each.iterations == 0) return &each;
+    if (next == nullptr || each.rank_cost < next->rank_cost) next = &each;
+  }
+  return next;
+}
+
+/// Far behind after some iterations: more of them are for the others.
+bool JointSearch::hopeless(const Hypothesis& hypothesis) const {
+  if (hypothesis.iterations < kFairIterations) return false;
+  double best = hypothesis.rank_cost;
+  for (int i = 0; i < in_round_count_; ++i)
+    if (const Hypothesis& other = hypotheses_[static_cast<std::size_t>(i)]; other.iterations > 0)
+      best = std::min(best, other.rank_cost);
+  return hypothesis.rank_cost > 2.0 * best + kHopelessChi2;
 }
 
 JointSearch::Hypothesis JointSearch::evaluate(const RigidTransform& pose, const Matrix6d& covariance,
@@ -237,11 +257,11 @@ void JointSearch::improve(Hypothesis& hypothesis) {
     hypothesis.damping = std::max(8.0 * damping, 1e-6);
     hypothesis.settled = hypothesis.damping > 1e3 || step.norm() < 1e-6 || decrease > -kSettledDecrease;
   }
-  hypothesis.settled = hypothesis.settled || iterations >= kIterations;
+  hypothesis.settled = hypothesis.settled || iterations >= kIterations || hopeless(hypothesis);
 }
 
 void JointSearch::prune() {
-  const auto end = hypotheses_.begin() + count_;
+  const auto end = hypotheses_.begin() + in_round_count_;
   std::sort(hypotheses_.begin(), end,
             [](const Hypothesis& a, const Hypothesis& b) { return a.rank_cost < b.rank_cost; });
   const Hypothesis& best = hypotheses_[0];
@@ -249,7 +269,7 @@ void JointSearch::prune() {
   const double variance = std::max(1.0, best.median_sigmas * best.median_sigmas / kMedianSquared);
   const bool enough = static_cast<int>(store_.frames().size()) >= options_.prune_frames;
   int kept = 0;
-  for (int i = 0; i < count_; ++i) {
+  for (int i = 0; i < in_round_count_; ++i) {
     const Hypothesis& each = hypotheses_[static_cast<std::size_t>(i)];
     if (!each.camera_from_world.translation.allFinite() ||
         each.camera_from_world.inverseTranslation().norm() > kFarthestM)
@@ -260,14 +280,18 @@ void JointSearch::prune() {
         [&](const Hypothesis& other) { return sameMode(other.camera_from_world, each.camera_from_world); });
     if (!twin) hypotheses_[static_cast<std::size_t>(kept++)] = each;
   }
+  // Those that came during the round are still to be looked at.
+  for (int i = in_round_count_; i < count_; ++i)
+    hypotheses_[static_cast<std::size_t>(kept++)] = hypotheses_[static_cast<std::size_t>(i)];
   count_ = kept;
 }
 
 void JointSearch::endRound() {
   in_round_ = false;
-  if (count_ == 0) return;
+  if (in_round_count_ == 0) return;
   prune();
-  decided_ = count_ == 1 && seedings_ >= 2 && seeds_.done() &&
+  decided_ = count_ == 1 && seedings_ >= kSeedings && seeds_.done() &&
+             hypotheses_[0].median_sigmas < options_.lock_median &&
              static_cast<int>(store_.frames().size()) >= options_.lock_frames &&
              hypotheses_[0].inliers >= options_.lock_inliers * centroids_;
 }

@@ -13,7 +13,8 @@ struct JointSearchOptions {
   double prune_chi2 = 40.0;    ///< a hypothesis that is so much worse than the best is given up
   int prune_frames = 8;        ///< but not before there are so many frames
   int lock_frames = 12;        ///< as many before the last one left is believed
-  double lock_inliers = 0.45;  ///< and such a share of all centroids must fit it
+  double lock_inliers = 0.55;  ///< and such a share of all centroids must fit it
+  double lock_median = 1.8;    ///< in standard deviations, where 1.2 is expected: at most the median residual
 };
 
 /// Throws Error(kInput) naming the offending key.
@@ -73,6 +74,7 @@ class JointSearch {
   void beginRound();
   void endRound();
   Hypothesis* unsettled();
+  bool hopeless(const Hypothesis& hypothesis) const;
   void improve(Hypothesis& hypothesis);
   Hypothesis evaluate(const RigidTransform& pose, const Matrix6d& covariance, double scale) const;
   void prune();
@@ -89,7 +91,8 @@ class JointSearch {
   int since_seeding_ = 0, seedings_ = 0;
   std::array<Hypothesis, kMaxHypotheses> hypotheses_;
   int count_ = 0;
-  int centroids_ = 0;  ///< in the store's frames
+  int in_round_count_ = 0;  ///< the first ones: those that were there when the round began
+  int centroids_ = 0;       ///< in the store's frames
   bool in_round_ = false;
   bool decided_ = false;
 };

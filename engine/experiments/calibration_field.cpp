@@ -14,12 +14,11 @@ namespace {
 
 constexpr double kOutlierReachPx = 80.0;
 constexpr double kStandingHeight = 0.06;
-constexpr double kNamingSigmaPx = 6.0;  // how far a ball may be from where the last poses put it
+constexpr double kNamingSigmaPx = 6.0;  // how far from its true place a ball may be sought
 constexpr double kNamingGateChi2 = 14.0;
 constexpr double kRobustSigmas = 4.0;
 constexpr double kInlierSigmas = 5.0;
 constexpr int kFewestInliers = 5;
-constexpr int kLongestCoast = 30;  // frames, after which any pose near the last one may be found again
 
 /// Twice low-pass filtered noise.
 class Wander {
@@ -130,66 +129,33 @@ class Eye {
   Random random_;
 };
 
-/// The helicopter's pose from the calibrated cameras, frame by frame; what it remembers serves to name the
-/// balls only.
-class PoseSource {
- public:
-  PoseSource(const CameraModel& camera, const CalibrationFieldOptions& options)
-      : camera_(camera), options_(options) {
-    last_.translation.z() = kStandingHeight;
-  }
+Names namesNear(const CameraModel& camera, const MarkerLayout& markers,
+                const RigidTransform& camera_from_world, const RigidTransform& world_from_body,
+                const Observation& observation) {
+  std::array<MarkerPrediction, kMaxMarkers> predictions;
+  for (int m = 0; m < markers.count(); ++m)
+    if (const auto pixel =
+            camera.project(camera_from_world * (world_from_body * markers.inBody(markerId(m)))))
+      predictions[static_cast<std::size_t>(m)] = {
+          true, *pixel, kNamingSigmaPx * kNamingSigmaPx * Eigen::Matrix2d::Identity(), 0.0};
+  return nameByPrediction({predictions.data(), static_cast<std::size_t>(markers.count())}, observation,
+                          kNamingGateChi2);
+}
 
-  PoseFit fit(const std::array<Eye, 2>& eyes, const std::array<Look, 2>& looks) {
-    RigidTransform predicted = last_;
-    predicted.translation += velocity_;
-    const bool lost = coasted_ < 0 || coasted_ > kLongestCoast;
-    const double slack = lost ? 4.0 : 1.0 + 0.3 * coasted_;
-    std::array<NamedView, 2> views;
-    for (std::size_t c = 0; c < 2; ++c)
-      views[c] = {&camera_, eyes[c].pose(), &looks[c].observation,
-                  names(eyes[c].pose(), predicted, looks[c].observation, slack * kNamingSigmaPx)};
-    const double sigma = options_.sigma_px;
-    PoseFit fit = fitPose(views, options_.markers, predicted, 4.0 * kRobustSigmas * slack * sigma, 10,
-                          kInlierSigmas * sigma);
-    fit = fitPose(views, options_.markers, fit.world_from_body, kRobustSigmas * sigma, 15,
-                  kInlierSigmas * sigma);
-    fit.ok = fit.ok && fit.inliers >= kFewestInliers && 2 * fit.inliers > fit.named;
-    remember(fit);
-    return fit;
-  }
-
- private:
-  Names names(const RigidTransform& camera_from_world, const RigidTransform& world_from_body,
-              const Observation& observation, double sigma_px) const {
-    std::array<MarkerPrediction, kMaxMarkers> predictions;
-    for (int m = 0; m < options_.markers.count(); ++m) {
-      const auto pixel =
-          camera_.project(camera_from_world * (world_from_body * options_.markers.inBody(markerId(m))));
-      if (!pixel) continue;
-      predictions[static_cast<std::size_t>(m)] = {true, *pixel,
-                                                  sigma_px * sigma_px * Eigen::Matrix2d::Identity(), 0.0};
-    }
-    return nameByPrediction({predictions.data(), static_cast<std::size_t>(options_.markers.count())},
-                            observation, kNamingGateChi2);
-  }
-
-  void remember(const PoseFit& fit) {
-    if (!fit.ok) {
-      coasted_ += coasted_ >= 0;
-      return;
-    }
-    const Eigen::Vector3d moved = fit.world_from_body.translation - last_.translation;
-    velocity_ = coasted_ == 0 ? Eigen::Vector3d(0.7 * velocity_ + 0.3 * moved) : Eigen::Vector3d::Zero();
-    last_ = fit.world_from_body;
-    coasted_ = 0;
-  }
-
-  const CameraModel& camera_;
-  const CalibrationFieldOptions& options_;
-  RigidTransform last_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< m per frame
-  int coasted_ = -1;                                    ///< frames since the last pose; negative: never any
-};
+/// The helicopter's pose from what the calibrated cameras see in one frame. How a tracker predicts is not
+/// under study: balls are named near their true places, and the fit starts there.
+PoseFit fitFrame(const CameraModel& camera, const CalibrationFieldOptions& options,
+                 const std::array<Eye, 2>& eyes, const std::array<Look, 2>& looks,
+                 const RigidTransform& truth) {
+  std::array<NamedView, 2> views;
+  for (std::size_t c = 0; c < 2; ++c)
+    views[c] = {&camera, eyes[c].pose(), &looks[c].observation,
+                namesNear(camera, options.markers, eyes[c].pose(), truth, looks[c].observation)};
+  PoseFit fit = fitPose(views, options.markers, truth, kRobustSigmas * options.sigma_px, 15,
+                        kInlierSigmas * options.sigma_px);
+  fit.ok = fit.ok && fit.inliers >= kFewestInliers;
+  return fit;
+}
 
 std::span<const MarkerId> seenBy(const Look& look) {
   return {look.truth.data(), static_cast<std::size_t>(look.observation.count)};
@@ -211,7 +177,6 @@ CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationF
   off.tail<3>() = options.guess_position * randomDirection(places);
   field.guess = perturbCamera(field.camera_from_world, off);
 
-  PoseSource poses(field.camera, options);
   CramerRaoBound bound;
   for (const RigidTransform& truth : fly(options, random.fork(5))) {
     CalibrationField::Frame& frame = field.frames.emplace_back();
@@ -222,7 +187,7 @@ CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationF
     for (std::size_t i = 0; i < static_cast<std::size_t>(own.observation.count); ++i)
       frame.labelled[i] = {own.truth[i], own.observation.centroids[i].pixel,
                            own.observation.centroids[i].covariance};
-    const PoseFit fit = poses.fit(eyes, looks);
+    const PoseFit fit = fitFrame(field.camera, options, eyes, looks, truth);
     frame.has_pose = fit.ok;
     frame.world_from_body = fit.world_from_body;
     if (fit.ok) frame.pose_covariance = options.sigma_px * options.sigma_px * fit.information.inverse();

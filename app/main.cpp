@@ -4,6 +4,7 @@
 
 #include "app/detect.h"
 #include "app/experiment.h"
+#include "app/export.h"
 #include "app/fly.h"
 #include "app/recover.h"
 #include "engine/base/error.h"
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
   helical::addFlyCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
   helical::addExperimentCommand(app, exit_code);
+  helical::addExportCommand(app, exit_code);
   helical::addRecoverCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {

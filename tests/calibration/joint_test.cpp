@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/calibration/calibrator_factory.h"
+#include "engine/calibration/cramer_rao.h"
+#include "engine/geometry/camera_perturbation.h"
+#include "engine/geometry/rotation.h"
+#include "tests/calibration/training_flight.h"
+
+namespace helical {
+namespace {
+
+using test::flyForTraining;
+using test::TrainingFlight;
+
+MarkerLayout layout(const std::array<Eigen::Vector2d, 4>& places) {
+  std::array<Eigen::Vector3d, 4> balls;
+  for (std::size_t i = 0; i < 4; ++i) balls[i] = {places[i].x(), places[i].y(), -0.05};
+  return MarkerLayout(balls, 0.018);
+}
+
+MarkerLayout asymmetric() {
+  return layout({{{0.18, 0.12}, {-0.15, 0.08}, {-0.12, -0.16}, {0.05, -0.10}}});
+}
+
+MarkerLayout square() {
+  return layout({{{0.14, 0.14}, {-0.14, 0.14}, {-0.14, -0.14}, {0.14, -0.14}}});
+}
+
+/// The flights' noise is white, and the method is told so.
+CalibratorOptions whiteNoise() {
+  CalibratorOptions options;
+  options.joint.lasting.sigma_px = 0.0;
+  return options;
+}
+
+struct Study {
+  double over_bound = 0.0;  ///< root of squared position errors over squared bounds
+  double nees = 0.0;
+};
+
+Study study(const char* method, const test::TrainingFlightOptions& options, int seeds) {
+  Study result;
+  double errors = 0.0, bounds = 0.0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const TrainingFlight flight = flyForTraining(1000 + static_cast<std::uint64_t>(seed), options);
+    const auto calibrator = makeCalibrator(method, whiteNoise(), flight.camera, flight.markers, 1);
+    calibrator->restart(flight.guess);
+    CramerRaoBound bound;
+    for (const auto& frame : flight.frames) {
+      calibrator->step(frame.view());
+      std::vector<MarkerId> seen;
+      for (const auto& pixel : frame.pixels) seen.push_back(pixel.marker);
+      const Matrix6d known = frame.pose_covariance.diagonal().cwiseInverse().asDiagonal();
+      bound.add(flight.camera, flight.camera_from_world, flight.markers, seen, frame.true_world_from_body,
+                known, 0.5);
+    }
+    const CameraEstimate estimate = calibrator->estimate();
+    const Vector6d error = cameraPerturbation(estimate.camera_from_world, flight.camera_from_world);
+    errors += error.tail<3>().squaredNorm();
+    bounds += std::pow(bound.bound()->position_m, 2);
+    result.nees += error.dot(estimate.covariance.ldlt().solve(error)) / seeds;
+  }
+  result.over_bound = std::sqrt(errors / bounds);
+  return result;
+}
+
+TEST(Joint, ReachesTheBoundWithATrueCovariance) {
+  const Study joint = study("joint", {.duration_s = 5.0, .markers = asymmetric()}, 60);
+  EXPECT_LT(joint.over_bound, 1.15);
+  EXPECT_NEAR(joint.nees, 6.0, 2.6 * std::sqrt(12.0 / 60.0));
+}
+
+TEST(Joint, NeedsNoGuessNorAnAsymmetricLayout) {
+  for (const MarkerLayout& markers : {asymmetric(), square()}) {
+    const Study joint = study(
+        "joint", {.duration_s = 13.0, .guess_rotation_rad = 3.1, .guess_position_m = 3.0, .markers = markers},
+        20);
+    EXPECT_LT(joint.over_bound, 1.5);
+  }
+}
+
+TEST(Joint, StandsThreeFalsePixelsInTen) {
+  const Study joint = study("joint", {.duration_s = 13.0, .outliers = 0.3, .markers = asymmetric()}, 20);
+  EXPECT_LT(joint.over_bound, 1.7);
+}
+
+TEST(Joint, ASymmetricSquareAtRestDecidesNothing) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const TrainingFlight flight = flyForTraining(3000 + seed, {.duration_s = 0.95, .markers = square()});
+    const auto calibrator = makeCalibrator("joint", {}, flight.camera, flight.markers, 1);
+    calibrator->restart(flight.guess);
+    for (const auto& frame : flight.frames) {
+      calibrator->step(frame.view());
+      ASSERT_TRUE(calibrator->named().empty()) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Joint, SearchesAnewWhenTheCameraIsSomewhereElse) {
+  const TrainingFlight before = flyForTraining(1, {.duration_s = 4.0, .markers = asymmetric()});
+  const TrainingFlight after = flyForTraining(2, {.duration_s = 8.0, .markers = asymmetric()});
+  const auto calibrator = makeCalibrator("joint", whiteNoise(), before.camera, before.markers, 1);
+  calibrator->restart(before.guess);
+  for (const auto& frame : before.frames) calibrator->step(frame.view());
+  for (const auto& frame : after.frames) calibrator->step(frame.view());
+  EXPECT_LT(test::positionError(calibrator->estimate().camera_from_world, after.camera_from_world), 0.02);
+}
+
+TEST(Joint, ForgettingOldFramesCostsNothing) {
+  CalibratorOptions few = whiteNoise(), all = whiteNoise();
+  few.joint.smoother.kept_frames = 64;
+  all.joint.smoother.kept_frames = 1000;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const TrainingFlight flight = flyForTraining(4000 + seed, {.duration_s = 10.0, .markers = asymmetric()});
+    const auto a = makeCalibrator("joint", few, flight.camera, flight.markers, 1);
+    const auto b = makeCalibrator("joint", all, flight.camera, flight.markers, 1);
+    for (const auto& frame : flight.frames) {
+      a->step(frame.view());
+      b->step(frame.view());
+    }
+    EXPECT_LT(test::positionError(a->estimate().camera_from_world, b->estimate().camera_from_world), 1e-3);
+  }
+}
+
+TEST(Ekf, ComesNearTheBoundFromAFairGuess) {
+  EXPECT_LT(study("ekf", {.duration_s = 13.0, .markers = asymmetric()}, 20).over_bound, 1.6);
+}
+
+TEST(Joint, RefusesOptionsOutOfRange) {
+  const TrainingFlight flight = flyForTraining(1, {.duration_s = 0.1});
+  const auto refuses = [&](auto change) {
+    CalibratorOptions options;
+    change(options);
+    EXPECT_THROW(makeCalibrator("joint", options, flight.camera, flight.markers, 1), Error);
+  };
+  refuses([](auto& options) { options.joint.frame_units = 0; });
+  refuses([](auto& options) { options.joint.search.lock_inliers = 0.0; });
+  refuses([](auto& options) { options.joint.search.lock_median = std::nan(""); });
+  refuses([](auto& options) { options.joint.smoother.kept_frames = 1; });
+  refuses([](auto& options) { options.joint.lasting.time_s = 0.0; });
+  refuses([](auto& options) { options.ekf.iterations = 0; });
+}
+
+}  // namespace
+}  // namespace helical

@@ -26,8 +26,9 @@ void validate(const JointSearchOptions& options);
 /// one left is the answer. Labellings that motion or an asymmetric layout have not yet told apart stay, so
 /// that a symmetric helicopter at rest decides nothing.
 ///
-/// Refined by its own few lines and not by Ceres: a round over 24 frames must stop after each iteration to
-/// keep to its share of a camera frame, and must not allocate; a Ceres problem of that size costs about 2 ms.
+/// Refined by its own few lines and not by Ceres: it must stop after each iteration to keep to its share of a
+/// camera frame, and must not allocate; and for 24 frames of four balls Ceres takes 170 us where
+/// Levenberg-Marquardt on the same residuals takes 26 (ResectionMethod, one core).
 class JointSearch {
  public:
   static constexpr int kMaxFrames = 24;

@@ -15,6 +15,10 @@ constexpr double kDoubtLasts =
 // count, not a time, so that a flight repeats.
 constexpr int kBallsPerStep = 16;
 
+// A frame that no labelling explains better has a false centroid in it, and of a nearly square layout any
+// rotation may fit that best.
+constexpr double kPlausibleRmsPx = 4.0;
+
 }  // namespace
 
 CameraCalibration::CameraCalibration(std::string_view method, const CameraModel& camera,
@@ -61,7 +65,7 @@ void CameraCalibration::seekLabels() {
   search_.advance(std::max(1, kBallsPerStep / markers_.count()));
   if (search_.running()) return;
   const ScoredLabelling* best = search_.found().best(LabellingCriterion::kNearestPlausible);
-  if (best == nullptr) return tracks_.forget();
+  if (best == nullptr || best->resection.rms_px > kPlausibleRmsPx) return tracks_.forget();
   for (int c = 0; c < best->labelling.count; ++c)
     track_of_marker_[best->labelling.marker[static_cast<std::size_t>(c)]] = c;
   named_ = true;

@@ -16,6 +16,9 @@ constexpr double kLeastContrast = 8.0;
 constexpr int kSteps = 6;
 constexpr int kRounds = 2;
 constexpr double kUnknowns = kDiscParameters;
+/// Share of the contrast that residuals may have: a ball with a pattern or smeared by its motion is no shaded
+/// disc, and its centre of gravity is the steadier estimate.
+constexpr double kWorstMisfit = 0.12;
 constexpr double kLongTail = 1.8;  ///< mean square over that of a normal distribution: something does not fit
 constexpr double kSettled = 3e-3;  ///< cells: a smaller step is the last
 constexpr int kRays = 24;
@@ -235,6 +238,8 @@ std::optional<Disc> DiscFit::result() {
   assemble(sums, 4.0 / (1.0 + p_[kDiscAmbient] * p_[kDiscAmbient]), p_[kDiscLightZ], normal, gradient);
   const double least = 0.25 * kLeastScale * kLeastScale;
   const double variance = std::max(least, sums.squares / std::max(1.0, sums.weight - kUnknowns));
+  const double contrast = p_[kDiscAmbient] + std::max(0.0F, p_[kDiscLightZ]) - p_[kDiscAround];
+  if (variance > kWorstMisfit * kWorstMisfit * contrast * contrast) return std::nullopt;
   const Normal inverse = normal.ldlt().solve(Normal::Identity());
   Disc disc;
   disc.centre = {left_ + static_cast<double>(p_[kDiscX]), top_ + static_cast<double>(p_[kDiscY])};

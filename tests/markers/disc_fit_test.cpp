@@ -67,7 +67,7 @@ TEST(DiscFit, IsManyTimesAsAccurateAsACentreOfGravity) {
     for (const double shading : {0.0, 0.5}) {
       SCOPED_TRACE(testing::Message() << "radius " << radius << ", shading " << shading);
       const Errors errors = measure({0, 0, radius, shading}, 2.0, 150);
-      EXPECT_EQ(errors.failed, 0);
+      EXPECT_LE(errors.failed, 1);  // of 150, given back to the centre of gravity
       EXPECT_LT(errors.rms, 0.15 * errors.binary_rms);
       // White noise alone: per axis at best sigma / contrast / sqrt(pi radius / 2).
       EXPECT_LT(errors.rms, 3.0 * 2.0 / 120.0 / std::sqrt(0.5 * 3.14159 * radius));
@@ -89,7 +89,7 @@ TEST(DiscFit, StandsAQuarterHidden) {
     BallPicture ball{0, 0, radius, 0.5};
     ball.hidden_from = 0.404 * radius;  // a quarter of its area
     const Errors errors = measure(ball, 2.0, 150);
-    EXPECT_EQ(errors.failed, 0);
+    EXPECT_LE(errors.failed, 1);  // of 150, given back to the centre of gravity
     EXPECT_LT(errors.rms, 0.05) << radius;
     EXPECT_GT(errors.binary_rms, 0.5) << radius;
     EXPECT_NEAR(errors.seen_share, 0.75, 0.06) << radius;
@@ -131,6 +131,20 @@ TEST(DiscFit, RefusesWhatIsNoBall) {
     for (int y = 28; y < 33; ++y) {
       std::uint8_t* p = picture.pixel(x, y);
       p[0] = 45, p[1] = 190, p[2] = 50;
+    }
+  DiscFit fit;
+  const auto regions = referenceRegions(picture.view(), nullptr, {}, {});
+  ASSERT_EQ(regions.size(), 1U);
+  EXPECT_FALSE(fit.fit(CellGrid(picture.view()), regions[0]).has_value());
+}
+
+TEST(DiscFit, RefusesABallWithAPattern) {
+  Random random(9);
+  test::Picture picture = test::drawBall({20.0, 20.0, 12.0, 0.2}, 2.0, random);
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      std::uint8_t* p = picture.pixel(x, y);
+      if (p[1] > p[2] + 40 && (x / 4 + y / 4) % 2 == 0) p[1] = static_cast<std::uint8_t>(p[1] - 50);
     }
   DiscFit fit;
   const auto regions = referenceRegions(picture.view(), nullptr, {}, {});

@@ -7,6 +7,7 @@
 #include "app/export.h"
 #include "app/fly.h"
 #include "app/recover.h"
+#include "app/replay.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #ifdef HELICAL_HAS_WINDOW
@@ -72,6 +73,7 @@ int main(int argc, char** argv) {
   helical::addExperimentCommand(app, exit_code);
   helical::addExportCommand(app, exit_code);
   helical::addRecoverCommand(app, exit_code);
+  helical::addReplayCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

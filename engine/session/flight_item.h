@@ -36,7 +36,8 @@ struct CalibrationBegun {
 /// One thing that a session writes down, in the order in which it reached the flight thread. Allocates
 /// nothing.
 struct FlightItem {
-  std::uint64_t order = 0;  ///< counted from 1, also what was lost on the way to the disk
+  std::uint64_t order =
+      0;  ///< counted from 1, also what was lost on the way to the disk; events do not count
   std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun> what;
 };
 

@@ -34,32 +34,35 @@ Recorder::~Recorder() {
 }
 
 void Recorder::onObservation(const Observation& observation, TimeNs now, const CameraTrack& track) {
+  ++next_.order;
   next_.what = UsedObservation{observation, now, track};
   push();
 }
 
 void Recorder::onTick(const OperatorCommands& commands, const EngineSnapshot& state) {
+  ++next_.order;
   next_.what = FlightTick{commands, state};
   push();
 }
 
 void Recorder::onHidden(CameraId camera, bool hidden, TimeNs now) {
+  ++next_.order;
   next_.what = CameraHidden{camera, hidden, now};
   push();
 }
 
 void Recorder::onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) {
+  ++next_.order;
   next_.what = CalibrationBegun{camera, method, seed, now};
   push();
 }
 
 void Recorder::onEvent(const EngineEvent& event) {
-  next_.what = event;
+  next_.what = event;  // tells of the things that count, and is none of them
   push();
 }
 
 void Recorder::push() {
-  ++next_.order;
   while (!queue_->push(next_)) {
     if (when_full_ == WhenFull::kDrop) {
       lost_.fetch_add(1, std::memory_order_relaxed);

@@ -1,0 +1,133 @@
+#include "engine/session/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/pipeline/engine.h"
+#include "engine/pipeline/first_guess.h"
+#include "engine/pipeline/lock_step.h"
+#include "engine/session/mcap_recovery.h"
+#include "engine/session/recorder.h"
+#include "tests/session/session_fixture.h"
+
+namespace helical {
+namespace {
+
+using test::TemporaryFolder;
+
+constexpr int kTicks = 900;  // 15 s: take-off and hover
+
+void record(const std::filesystem::path& file, const SessionSettings& settings) {
+  Recorder recorder(file, settings, Recorder::WhenFull::kWait);
+  LockStep flight(settings.rig, settings.plan, &recorder);
+  OperatorCommands commands;
+  for (int i = 0; i < kTicks; ++i) {
+    commands.take_off = i == 60;
+    if (i == 500) flight.hideCamera(cameraId(1), true);
+    if (i == 560) flight.hideCamera(cameraId(1), false);
+    flight.tick(commands);
+  }
+}
+
+SessionSettings settingsOf(const McapReader& session) {
+  return fromAttachments(session.attachments(), session.file().string());
+}
+
+Replay replayed(const std::filesystem::path& file, const ReplayChanges& changes = {}) {
+  McapReader session(file);
+  return replaySession(session, settingsOf(session), changes, [](const EngineSnapshot&) {});
+}
+
+TEST(Replay, TheSameSettingsGiveTheSameFlightBitForBit) {
+  const TemporaryFolder folder;
+  for (const char* calibrator : {"joint", "particle-filter", "ekf"}) {
+    SessionSettings settings = test::hoverSettings(21);
+    settings.rig.calibrator = calibrator;
+    giveFirstGuesses(settings.rig, 0.26, 0.4, 21, false);
+    record(folder / "a.mcap", settings);
+    const Replay replay = replayed(folder / "a.mcap");
+    EXPECT_EQ(replay.ticks, static_cast<std::uint64_t>(kTicks));
+    EXPECT_EQ(replay.different_ticks, 0u) << calibrator << ", first at " << replay.first_difference_s;
+    EXPECT_EQ(replay.missing, 0u);
+    EXPECT_GT(replay.position_difference.count(), 800u);
+    EXPECT_EQ(replay.position_difference.value(), 0.0);
+    EXPECT_LT(replay.score.trackedPosition().value(), 0.02);
+    EXPECT_GT(replay.score.trackedPosition().count(), 0u);
+  }
+}
+
+TEST(Replay, CoveredCamerasAnswerWhatWouldHaveBeenKnown) {
+  const TemporaryFolder folder;
+  record(folder / "a.mcap", test::hoverSettings(22));
+  ReplayChanges changes;
+  changes.occlusions = {{cameraId(0), 10.0, 11.0}, {cameraId(1), 10.0, 11.0}};
+  const Replay replay = replayed(folder / "a.mcap", changes);
+  EXPECT_GT(replay.different_ticks, 30u);
+  EXPECT_NEAR(replay.first_difference_s, 10.0, 0.1);
+  EXPECT_GT(replay.score.lostSeconds(), 0.5);
+}
+
+TEST(Replay, AnotherCalibratorIsAnotherResult) {
+  const TemporaryFolder folder;
+  SessionSettings settings = test::hoverSettings(23);
+  settings.rig.calibrator = "particle-filter";
+  giveFirstGuesses(settings.rig, 0.26, 0.4, 23, false);
+  record(folder / "a.mcap", settings);
+  McapReader session(folder / "a.mcap");
+  SessionSettings other = settingsOf(session);
+  other.rig.calibrator = "ekf";
+  const Replay replay = replaySession(session, other, {}, [](const EngineSnapshot&) {});
+  EXPECT_STREQ(replay.last.cameras[2].calibration_method, "ekf");
+}
+
+TEST(Replay, AFlightInRealTimeRepeatsInTheOrderInWhichItHappened) {
+  const TemporaryFolder folder;
+  SessionSettings settings = test::hoverSettings(24);
+  giveFirstGuesses(settings.rig, 0.26, 0.4, 24, false);
+  settings.realtime = true;
+  Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kDrop);
+  {
+    Engine engine(settings.rig, settings.plan, &recorder);
+    engine.start();
+    std::uint64_t ticks = 0;
+    while (ticks < 150) {
+      if (engine.poll()) ticks = engine.snapshot().tick;
+      if (ticks == 50) engine.takeOff();
+      if (ticks == 80) engine.setCalibrator("ekf");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    engine.stop();
+  }
+  recorder.finish();
+  ASSERT_EQ(recorder.lost(), 0u);
+  const Replay replay = replayed(folder / "a.mcap");
+  EXPECT_EQ(replay.missing, 0u);
+  EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
+  EXPECT_GE(replay.ticks, 150u);
+}
+
+TEST(Replay, ACutSessionRepeatsAsFarAsItGoes) {
+  const TemporaryFolder folder;
+  record(folder / "a.mcap", test::hoverSettings(25));
+  const std::string bytes = test::bytesOf(folder / "a.mcap");
+  test::writeBytes(folder / "cut.mcap", bytes.substr(0, bytes.size() / 2));
+  const Replay cut = replayed(folder / "cut.mcap");
+  EXPECT_GT(cut.ticks, 100u);
+  EXPECT_LT(cut.ticks, static_cast<std::uint64_t>(kTicks));
+  EXPECT_EQ(cut.different_ticks, 0u);
+  recoverMcap(folder / "cut.mcap");
+  EXPECT_EQ(replayed(folder / "cut.mcap").ticks, cut.ticks);
+}
+
+TEST(Replay, WhatIsNoSessionOfOursIsRefused) {
+  const TemporaryFolder folder;
+  McapWriter(folder / "foreign.mcap", "library").close();
+  McapReader session(folder / "foreign.mcap");
+  EXPECT_THROW(settingsOf(session), Error);
+}
+
+}  // namespace
+}  // namespace helical

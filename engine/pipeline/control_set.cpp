@@ -8,8 +8,7 @@ namespace {
 
 constexpr TimeNs kTeaching = 50 * kNanosecondsPerMillisecond;  // a view is of now for so long
 constexpr int kTeachers = 2;
-constexpr int kSureBalls = 3;  // that another camera sees where the pose says
-constexpr int kWitnesses = 2;  // such cameras: then it is not the pose that is wrong
+constexpr int kSureBalls = 3;  // that another camera sees where the pose says: then it is not the pose
 
 }  // namespace
 
@@ -76,13 +75,12 @@ bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracke
   evidence.exposure = observation.exposure;
   evidence.in_view = std::min(observation.count, track.predicted_count);
   evidence.agreeing = track.agreeing_count;
-  int witnesses = 0;
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraTrack& other = tracker.track(cameraId(static_cast<int>(i)));
-    witnesses += i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
-                 observation.exposure - other.exposure < kTeaching;
+    if (i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
+        observation.exposure - other.exposure < kTeaching)
+      evidence.pose_is_sure = true;
   }
-  evidence.pose_is_sure = witnesses >= kWitnesses;
   return detectors_[index].add(evidence);
 }
 

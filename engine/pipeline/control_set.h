@@ -16,8 +16,8 @@ namespace helical {
 
 /// Which cameras the helicopter is flown on, and how the others get there: keeps every camera's estimate,
 /// teaches those whose pose is not known yet, and takes out those that were knocked, whether their pose was
-/// given or learnt, to teach them anew from where they stood. That takes three: of two cameras that disagree
-/// nobody can tell which was knocked, and none is named.
+/// given or learnt, to teach them anew from where they stood. The one that jumped is taken out, also
+/// of two: flying on with both of them crashes, and the pose predicted from before tells which one it was.
 ///
 /// Who teaches whom has no circles. Cameras with a given pose have rank 0, those with a first guess rank 1,
 /// and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of lower rank

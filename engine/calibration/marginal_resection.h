@@ -74,7 +74,7 @@ class ResectionRun {
   RigidTransform evaluated_;  ///< what the pass looks at
   Normal sum_, current_;
   Residuals residuals_;
-  Vector6d step_;
+  Vector6d step_ = Vector6d::Zero();
   double scale_ = 0.0;
   double damping_ = 0.0;
   int iteration_ = 0;

@@ -11,10 +11,11 @@ constexpr int kAgreeing = 2;      // fewer than so many balls in place: the came
 }  // namespace
 
 bool KnockDetector::add(const KnockEvidence& evidence) {
-  if (evidence.in_view < kFewestInView || !evidence.pose_is_sure) return false;
+  if (evidence.in_view < kFewestInView || evidence.witnesses == 0) return false;
   // One frame of agreement outweighs two of disagreement: a knocked camera agrees in none.
   balance_ = evidence.agreeing < kAgreeing ? balance_ + 1 : std::max(0, balance_ - 2);
-  if (balance_ < options_.disagreeing_frames) return false;
+  const int limit = evidence.witnesses > 1 ? options_.disagreeing_frames : options_.disagreeing_frames_of_two;
+  if (balance_ < limit) return false;
   balance_ = 0;
   return true;
 }

@@ -5,15 +5,18 @@
 namespace helical {
 
 struct KnockDetectorOptions {
-  int disagreeing_frames = 6;  ///< more of them than agreeing ones, in a row or nearly so: a knock
+  // More disagreeing frames than agreeing ones, in a row or nearly so, are a knock: with two other cameras
+  // that agree with the pose, and with one. A hard touchdown upsets the pose itself for some frames.
+  int disagreeing_frames = 6;
+  int disagreeing_frames_of_two = 12;
 };
 
 /// What one frame says about whether its camera stands where it stood.
 struct KnockEvidence {
   TimeNs exposure = 0;
-  int in_view = 0;   ///< balls that this camera should and could show: the fewer of predicted and found
-  int agreeing = 0;  ///< of those, the ones that lie where the pose says
-  bool pose_is_sure = false;  ///< other cameras agree with it
+  int in_view = 0;    ///< balls that this camera should and could show: the fewer of predicted and found
+  int agreeing = 0;   ///< of those, the ones that lie where the pose says
+  int witnesses = 0;  ///< other cameras that agree with the pose
 };
 
 /// Tells a knocked camera from one that is covered, confused by a few false markers or ahead of a pose that

@@ -77,9 +77,8 @@ bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracke
   evidence.agreeing = track.agreeing_count;
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraTrack& other = tracker.track(cameraId(static_cast<int>(i)));
-    if (i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
-        observation.exposure - other.exposure < kTeaching)
-      evidence.pose_is_sure = true;
+    evidence.witnesses += i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
+                          observation.exposure - other.exposure < kTeaching;
   }
   return detectors_[index].add(evidence);
 }

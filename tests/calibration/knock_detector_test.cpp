@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kFrames = 200000;  // an hour at 60 Hz, nearly
 
-KnockEvidence frame(int in_view, int agreeing, bool sure = true) {
-  return {0, in_view, agreeing, sure};
+KnockEvidence frame(int in_view, int agreeing, int witnesses = 2) {
+  return {0, in_view, agreeing, witnesses};
 }
 
 TEST(KnockDetector, FindsAKnockInATenthOfASecond) {
@@ -19,6 +19,12 @@ TEST(KnockDetector, FindsAKnockInATenthOfASecond) {
   for (int f = 1; f <= 5; ++f) EXPECT_FALSE(detector.add(frame(4, 0)));
   EXPECT_TRUE(detector.add(frame(4, 0)));
   EXPECT_FALSE(detector.add(frame(4, 0)));  // says it once
+}
+
+TEST(KnockDetector, OfTwoCamerasItTakesTwiceAsLong) {
+  KnockDetector detector;
+  for (int f = 1; f <= 11; ++f) EXPECT_FALSE(detector.add(frame(4, 0, 1)));
+  EXPECT_TRUE(detector.add(frame(4, 0, 1)));
 }
 
 TEST(KnockDetector, FindsItThroughLuckyHits) {
@@ -45,7 +51,7 @@ TEST(KnockDetector, CoveredCamerasAndDoubtfulPosesAreNoKnocks) {
   KnockDetector detector;
   for (int f = 0; f < 1000; ++f) {
     EXPECT_FALSE(detector.add(frame(2, 0)));
-    EXPECT_FALSE(detector.add(frame(4, 0, false)));
+    EXPECT_FALSE(detector.add(frame(4, 0, 0)));
   }
 }
 

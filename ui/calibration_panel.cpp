@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
 
@@ -40,11 +41,18 @@ QString magnitude(double value) {
   return plainNumber(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0);
 }
 
+/// A list that the mouse wheel does not turn: whoever scrolls past must not throw cameras out of the control
+/// set.
+class MethodList final : public QComboBox {
+ protected:
+  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+};
+
 }  // namespace
 
 CalibrationPanel::CalibrationPanel(const RigConfig& rig, const std::vector<std::string>& methods,
                                    QWidget* parent)
-    : QWidget(parent), methods_(new QComboBox) {
+    : QWidget(parent), methods_(new MethodList) {
   setMinimumWidth(250);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 8, 14, 8);

@@ -59,6 +59,9 @@ class ExtrinsicCalibrator {
   /// pixels nor a good guess.
   virtual bool namesCentroids() const { return false; }
 
+  /// Whether the estimate is one place, not the likeliest of several that are still being tried.
+  virtual bool knowsItsPlace() const { return true; }
+
   /// The pixels of the last step, for methods that name centroids for themselves: empty while it does not
   /// know the names. Valid until the next call.
   virtual std::span<const LabelledPixel> named() const { return {}; }

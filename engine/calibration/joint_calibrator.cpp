@@ -14,6 +14,7 @@ namespace {
 constexpr int kRecentFrames = 256;
 constexpr int kUnitsPerLearnt = 3;     // naming and adding a frame costs as much as so many looks at one
 constexpr double kFittingFrames = 45;  // that the running share rests on
+constexpr int kFewestToJudge = 3;
 constexpr double kLostBelow = 0.2;
 
 }  // namespace
@@ -110,6 +111,8 @@ void JointCalibrator::seek() {
 }
 
 bool JointCalibrator::lost(const UnnamedFrame& frame) {
+  // Of one or two regions nobody can say whether they are the helicopter: a covered camera forgets nothing.
+  if (frame.observation.count < kFewestToJudge) return false;
   const int expected = std::min(frame.observation.count, markers_.count());
   const double share = static_cast<double>(named_.count) / expected;
   fitting_ += (share - fitting_) / kFittingFrames;

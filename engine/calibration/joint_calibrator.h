@@ -42,6 +42,7 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   void step(const CalibrationFrame& frame) override;
   CameraEstimate estimate() const override { return estimate_; }
   bool namesCentroids() const override { return true; }
+  bool knowsItsPlace() const override { return locked_; }
   std::span<const LabelledPixel> named() const override;
   bool coversLastingOffsets() const override { return true; }
 

@@ -28,13 +28,14 @@ class KnockDetector {
  public:
   explicit KnockDetector(const KnockDetectorOptions& options = {}) : options_(options) {}
 
-  /// True in the frame in which the camera is found knocked; counting starts anew then.
+  /// True in the frame in which the camera is found knocked; counting starts anew then, and
+  /// after a fifth of a second without evidence.
   bool add(const KnockEvidence& evidence);
-  void restart() { balance_ = 0; }
 
  private:
   KnockDetectorOptions options_;
   int balance_ = 0;
+  TimeNs last_ = 0;  ///< exposure of the last frame that counted
 };
 
 }  // namespace helical

@@ -10,6 +10,11 @@ namespace helical {
 /// Bayer formats are named as GigE Vision names them: by the two first pixels of the first row.
 enum class PixelFormat : std::uint8_t { kMono8, kBgr8, kRgb8, kBayerRg8, kBayerGr8, kBayerGb8, kBayerBg8 };
 
+/// In a row, one after the other.
+constexpr int bytesPerPixel(PixelFormat format) {
+  return format == PixelFormat::kBgr8 || format == PixelFormat::kRgb8 ? 3 : 1;
+}
+
 /// Pixels that somebody else owns. Row y starts at `data + y * stride`.
 struct ImageView {
   const std::uint8_t* data = nullptr;

@@ -16,7 +16,9 @@ namespace helical {
 /// flight from a first guess 15 degrees and 0.4 m off; from 13 s to the landing a white board covers
 /// camera 2. 1 % of the centroids are thrown aside, 3 % of the balls are lost. Experiment A calibrates by
 /// Gauss-Newton in each frame, B by the particle filter; beside them camera 1 alone, and what Helical does by
-/// default. Each arm flies with both trackers, all on the same seeds with the same controller.
+/// default. Each arm flies with both trackers, all on the same seeds with the same controller. With the
+/// paper's tracker camera 3 goes on learning after the switch, from the pose that it helps to find, as the
+/// paper's does; with ours it learns only from a pose that other cameras vouch for.
 struct MatsukawaArm {
   std::string name;        ///< "camera-1-alone", "A", "B", "default"
   std::string tracker;     ///< "paper", "helical"

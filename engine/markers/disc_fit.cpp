@@ -78,7 +78,7 @@ bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
   top_ = std::max(0, region.top - kMargin);
   width_ = std::min(grid.width - 1, region.right + kMargin) - left_ + 1;
   height_ = std::min(grid.height - 1, region.bottom + kMargin) - top_ + 1;
-  if (width_ > kLargestSide || height_ > kLargestSide) return false;
+  if (width_ < 2 || height_ < 2 || width_ > kLargestSide || height_ > kLargestSide) return false;
   const auto area = static_cast<double>(region.area);
   binary_ = {
       {static_cast<double>(region.sum_x) / area - left_, static_cast<double>(region.sum_y) / area - top_},

@@ -39,9 +39,7 @@ void CameraCalibration::restart(const RigidTransform& guess, CameraStatus status
   tracks_.forget();
   search_.stop();
   named_ = false;
-  admission_ = {};
-  admission_.status = status;
-  doubtful_since_ = -1;
+  expelAs(status);
 }
 
 void CameraCalibration::startSeeking(const Observation& observation, const TrackedState& helicopter) {
@@ -58,7 +56,8 @@ void CameraCalibration::startSeeking(const Observation& observation, const Track
     as_they_stand[i] = c;
   }
   tracks_.restart(observation, as_they_stand);
-  search_.start(frame, guess_);
+  // A camera that was only covered is where it was: its own estimate judges better than the first guess.
+  search_.start(frame, isAdmitted() ? calibrator_->estimate().camera_from_world : guess_);
 }
 
 void CameraCalibration::seekLabels() {
@@ -69,8 +68,14 @@ void CameraCalibration::seekLabels() {
   for (int c = 0; c < best->labelling.count; ++c)
     track_of_marker_[best->labelling.marker[static_cast<std::size_t>(c)]] = c;
   named_ = true;
+  if (isAdmitted()) return;
   calibrator_->restart(guess_);
+  expelAs(CameraStatus::kCalibrating);
+}
+
+void CameraCalibration::expelAs(CameraStatus status) {
   admission_ = {};
+  admission_.status = status;
   doubtful_since_ = -1;
 }
 
@@ -97,6 +102,7 @@ void CameraCalibration::step(const Observation& observation, const TrackedState&
   if (!calibrator_->namesCentroids()) frame.pixels = keepLabels(observation, helicopter);
   calibrator_->step(frame);
   if (calibrator_->namesCentroids()) frame.pixels = calibrator_->named();
+  if (isAdmitted() && !calibrator_->knowsItsPlace()) expelAs(CameraStatus::kRejected);
   judge(frame, helicopter.state.world_from_body.translation);
 }
 
@@ -111,11 +117,12 @@ void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector
   } else if (doubtful_since_ < 0) {
     doubtful_since_ = frame.exposure;
   } else if (toSeconds(frame.exposure - doubtful_since_) > kDoubtLasts) {
+    // The next frame seeks anew; the residual that it was given up for says nothing about what it finds.
     if (calibrator_->namesCentroids())
       calibrator_->restart(guess_);
     else
-      tracks_.forget();  // the next frame seeks anew
-    doubtful_since_ = -1;
+      tracks_.forget();
+    expelAs(isAdmitted() ? CameraStatus::kRejected : admission_.status);
   }
 }
 

@@ -36,6 +36,9 @@ class CameraCalibration {
   const ExtrinsicCalibrator& calibrator() const { return *calibrator_; }
 
  private:
+  bool isAdmitted() const { return admission_.status == CameraStatus::kCalibrated; }
+  /// Out of the control set, until the rule has seen enough anew.
+  void expelAs(CameraStatus status);
   void startSeeking(const Observation& observation, const TrackedState& helicopter);
   void seekLabels();
   /// The method's centroids, named for it.

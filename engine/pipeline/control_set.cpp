@@ -157,7 +157,8 @@ void ControlSet::addToBound(const Observation& observation, const Tracker& track
   frame.balls = std::min(observation.count, markers_.count());
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraTrack& track = tracker.track(cameraId(static_cast<int>(i)));
-    if (i == index || !usable_[i] || observation.exposure - track.exposure >= kTeaching) continue;
+    const bool teaches = i != index && usable_[i] && (learn_from_own_pose_ || rank_[i] < rank_[index]);
+    if (!teaches || observation.exposure - track.exposure >= kTeaching) continue;
     std::array<MarkerId, kMaxMarkers> seen;
     std::size_t count = 0;
     for (int m = 0; m < markers_.count(); ++m)

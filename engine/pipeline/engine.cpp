@@ -87,7 +87,12 @@ class PictureTap {
       std::memcpy(to, from, static_cast<std::size_t>(3 * image.width));
       return;
     }
-    for (int x = 0; x < image.width; ++x) std::memset(to + 3 * x, from[x], 3);
+    for (int x = 0; x < image.width; ++x) {
+      if (image.format == PixelFormat::kRgb8)
+        std::reverse_copy(from + 3 * x, from + 3 * x + 3, to + 3 * x);
+      else
+        std::memset(to + 3 * x, from[x], 3);  // Bayer as it is: a preview in grey
+    }
   }
 
   LatestValue<CameraPicture> pictures_;

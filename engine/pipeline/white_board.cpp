@@ -43,7 +43,7 @@ bool WhiteBoards::covers(const Eigen::Vector2d& pixel) const {
 }
 
 void paintBoard(const WhiteBoard& board, const ImageView& image, std::uint8_t* pixels) {
-  const int bytes = image.format == PixelFormat::kMono8 ? 1 : 3;
+  const int bytes = bytesPerPixel(image.format);
   for (int y = 0; y < image.height; ++y) {
     const Crossings crossings = crossingsAt(board, y);
     std::uint8_t* row = pixels + static_cast<std::ptrdiff_t>(y) * image.stride;

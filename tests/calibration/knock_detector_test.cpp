@@ -55,6 +55,14 @@ TEST(KnockDetector, CoveredCamerasAndDoubtfulPosesAreNoKnocks) {
   }
 }
 
+TEST(KnockDetector, WhatWasCountedBeforeAGapIsForgotten) {
+  KnockDetector detector;
+  const auto at = [](double seconds) { return KnockEvidence{fromSeconds(seconds), 4, 0, 2}; };
+  for (int f = 0; f < 5; ++f) EXPECT_FALSE(detector.add(at(1.0 + f / 60.0)));
+  for (int f = 0; f < 5; ++f) EXPECT_FALSE(detector.add(at(60.0 + f / 60.0)));
+  EXPECT_TRUE(detector.add(at(60.1)));
+}
+
 TEST(KnockDetector, AMomentOfDisagreementIsForgotten) {
   KnockDetector detector;
   for (int round = 0; round < 100; ++round) {

@@ -4,6 +4,8 @@
 
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
+#include "engine/geometry/rotation.h"
+#include "engine/pipeline/first_guess.h"
 #include "engine/pipeline/flight_loop.h"
 #include "engine/pipeline/output_loop.h"
 #include "engine/pipeline/rig_hardware.h"
@@ -21,6 +23,9 @@ class SilentTransmitter final : public Transmitter {
 TEST(FlightLoopAllocation, NoneFromTheFirstFrameToTheLanding) {
   RigConfig rig = test::shippedRig("paper", 9);
   test::cover(rig, {0, 1, 2}, 8.0, 8.4);  // a gap and its acquisition, too
+  giveFirstGuesses(rig, toRadians(15.0), 0.4, 9, true);
+  rig.simulation.bumps = {{cameraId(0), 11.0, toRadians(2.0), 0.02},
+                          {cameraId(2), 14.0, toRadians(2.0), 0.02}};
   auto clock = std::make_shared<ManualClock>();
   RigHardware hardware = openRig(rig, clock);
   FlightLoop loop(rig, loadPlan(planPath("hover")));
@@ -54,6 +59,8 @@ TEST(FlightLoopAllocation, NoneFromTheFirstFrameToTheLanding) {
   }
   EXPECT_EQ(allocated, 0);
   EXPECT_TRUE(hardware.world->verdict().has_flown);
+  EXPECT_EQ(loop.snapshot().cameras[0].knocks_found, 1);
+  EXPECT_EQ(loop.snapshot().cameras[2].knocks_found, 1);
   EXPECT_NE(loop.snapshot().failsafes & static_cast<std::uint32_t>(Failsafe::kNoPoseCoast), 0u);
 }
 

@@ -31,7 +31,7 @@ CameraError errorOf(const test::Flown& flown, const RigConfig& rig) {
 }
 
 TEST(CameraCalibration, GoodMethodsFindTheCameraAndItIsAdmitted) {
-  for (const char* method : {"particle-filter", "growing-gauss-newton"}) {
+  for (const char* method : {"joint", "particle-filter", "growing-gauss-newton"}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const RigConfig rig = guessedRig(seed, method);
       const test::Flown flown = test::flyHover(rig);
@@ -52,6 +52,31 @@ TEST(CameraCalibration, TheNewCameraFliesWhenTheSecondIsCovered) {
     const test::Flown flown = test::flyHover(rig);
     EXPECT_EQ(flown.outcome, "landed") << "seed " << seed;
     EXPECT_GT(flown.score.selectedShare(cameraId(2)), 0.5) << "seed " << seed;
+  }
+}
+
+TEST(CameraCalibration, ACameraThatWasCoveredKnowsItsPlaceStill) {
+  for (const char* method : {"joint", "particle-filter", "growing-gauss-newton", "ekf"}) {
+    RigConfig rig = guessedRig(2, method);
+    test::cover(rig, {2}, 10.0, 12.0);
+    LockStep flight(rig, loadPlan(planPath("hover")));
+    OperatorCommands commands;
+    for (double time = 0.0; time < 14.0;) {
+      const EngineSnapshot& now = flight.tick(commands);
+      commands.take_off = now.phase == FlightPhase::kIdle && now.pose_known;
+      time = toSeconds(now.time);
+      if (time > 9.0) {
+        ASSERT_EQ(now.cameras[2].estimate.status, CameraStatus::kCalibrated) << method << " at " << time;
+        ASSERT_LT(
+            cameraError(now.cameras[2].estimate.camera_from_world, now.cameras[2].true_camera_from_world)
+                .position,
+            0.01)
+            << method << " at " << time;
+      }
+      if (time > 13.0) {
+        EXPECT_GT(now.cameras[2].track.selected_count, 0) << method;
+      }
+    }
   }
 }
 

@@ -54,6 +54,7 @@ TEST(Knock, OneAfterTheOtherHeal) {
   for (const int camera : {0, 2}) {
     const CameraSnapshot& now = flown.last.cameras[static_cast<std::size_t>(camera)];
     EXPECT_EQ(now.knocks_found, 1) << "camera " << camera + 1;
+    EXPECT_EQ(now.estimate.status, CameraStatus::kCalibrated) << "camera " << camera + 1;
     EXPECT_LT(errorOf(now).position, 0.02) << "camera " << camera + 1;
   }
 }

@@ -133,7 +133,10 @@ Accuracy fly(double azimuth_deg, std::uint64_t seed, double duration_s) {
   const MarkerLayout layout = MarkerLayout::paper();
   const RigidTransform camera_from_world = cameraAt(toRadians(azimuth_deg));
   SceneRenderer renderer(model, layout, {.seed = seed});
-  Extractor extractor(MarkerOptions{});
+  // The plain centroid: how far it is off is what tells whether the pictures are as imperfect as real ones.
+  MarkerOptions options;
+  options.estimator = CentroidEstimator::kBinary;
+  Extractor extractor(options);
   Observation found;
   double t = 0.0;
   for (; !extractor.hasBackground(); t += kFramePeriod)

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/require.h"
 #include "engine/calibration/camera_perturbation.h"
 
 namespace helical {
@@ -19,12 +20,6 @@ constexpr double kMedianOfTwo = 1.1774;  // median length of a two-dimensional s
 constexpr double kUnseenResidual = 100.0;
 constexpr double kLargestResidual = 20.0;  // one frame of nonsense must not outlast the window
 constexpr double kLongestStepS = 0.1;
-
-void requirePositive(double value, const char* key) {
-  if (!(value > 0.0 && std::isfinite(value)))
-    throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
-                "give a number above 0");
-}
 
 void requireGap(double admit, double drop, const char* key) {
   if (!(drop > admit))

@@ -1,22 +1,14 @@
 #include "engine/correspondence/label_keeper.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 
 #include "engine/base/check.h"
-#include "engine/base/error.h"
+#include "engine/base/require.h"
 
 namespace helical {
 namespace {
 
 constexpr double kGateChi2 = 1.0;  // predictions carry the gate itself as their standard deviation
-
-void requirePositive(double value, const char* key) {
-  if (!(value > 0.0 && std::isfinite(value)))
-    throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
-                "give a number above 0");
-}
 
 double median(std::array<double, kMaxMarkers>& values, int count) {
   const auto middle = values.begin() + count / 2;

@@ -7,12 +7,12 @@
 #include "engine/base/random.h"
 #include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
+#include "engine/simulator/simulation_options.h"
 #include "engine/tracking/pose_fit.h"
 
 namespace helical {
 namespace {
 
-constexpr double kOutlierReachPx = 80.0;
 constexpr double kStandingHeight = 0.06;
 constexpr double kNamingSigmaPx = 6.0;  // how far from its true place a ball may be sought
 constexpr double kNamingGateChi2 = 14.0;

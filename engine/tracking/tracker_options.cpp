@@ -1,20 +1,11 @@
 #include "engine/tracking/tracker_options.h"
 
-#include <cmath>
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/require.h"
 
 namespace helical {
-namespace {
-
-void requirePositive(double value, const char* key) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
-                "give a number above 0");
-}
-
-}  // namespace
 
 void validate(const TrackerOptions& options) {
   requirePositive(options.acceleration_noise_lateral, "acceleration_noise_lateral");

@@ -5,17 +5,7 @@ import subprocess
 import tempfile
 import unittest
 
-from helical_command import BINARY, SOURCE, run, run_json
-
-WALL_CLOCK = ("simulated_over_wall", "server_us", "extraction_us")
-
-
-def without_wall_clock(value):
-    if isinstance(value, dict):
-        return {k: without_wall_clock(v) for k, v in value.items() if k not in WALL_CLOCK}
-    if isinstance(value, list):
-        return [without_wall_clock(v) for v in value]
-    return value
+from helical_command import BINARY, SOURCE, WALL_CLOCK, run, run_json, without
 
 
 class Fly(unittest.TestCase):
@@ -40,8 +30,8 @@ class Fly(unittest.TestCase):
 
     def test_repeats_for_a_seed(self):
         first, second, other = (run_json("fly", "--no-images", "--seed", seed)[1] for seed in (7, 7, 8))
-        self.assertEqual(without_wall_clock(first), without_wall_clock(second))
-        self.assertNotEqual(without_wall_clock(first), without_wall_clock(other))
+        self.assertEqual(without(first, *WALL_CLOCK), without(second, *WALL_CLOCK))
+        self.assertNotEqual(without(first, *WALL_CLOCK), without(other, *WALL_CLOCK))
 
     def test_images_report_extraction_times(self):
         code, report = run_json("fly", "--duration", 13)

@@ -21,3 +21,15 @@ def run_json(*arguments):
     """The one object on stdout; fails on anything else there."""
     result = run(*arguments, "--json")
     return result.returncode, json.loads(result.stdout)
+
+
+WALL_CLOCK = ("simulated_over_wall", "server_us", "extraction_us")
+
+
+def without(value, *fields):
+    """A report without these fields, at any depth: what is left must repeat for a seed."""
+    if isinstance(value, dict):
+        return {k: without(v, *fields) for k, v in value.items() if k not in fields}
+    if isinstance(value, list):
+        return [without(v, *fields) for v in value]
+    return value

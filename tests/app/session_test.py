@@ -10,19 +10,15 @@ import subprocess
 import tempfile
 import unittest
 
-from helical_command import BINARY, run, run_json
+from helical_command import BINARY, WALL_CLOCK, run, run_json, without
 from mcap_parser import McapFile, pose
 
 FLIGHT = ("fly", "--no-images", "--seed", 7, "--calibrator", "joint")
-WALL_CLOCK = ("simulated_over_wall", "server_us", "extraction_us", "session", "replay")
 
 
-def without_wall_clock(value):
-    if isinstance(value, dict):
-        return {k: without_wall_clock(v) for k, v in value.items() if k not in WALL_CLOCK}
-    if isinstance(value, list):
-        return [without_wall_clock(v) for v in value]
-    return value
+def without_run(report):
+    """What must be the same however and wherever the flight was recorded."""
+    return without(report, *WALL_CLOCK, "session", "replay")
 
 
 class Session(unittest.TestCase):
@@ -47,7 +43,7 @@ class Session(unittest.TestCase):
     def test_recording_does_not_change_the_flight(self):
         code, alone = run_json(*FLIGHT)
         self.assertEqual((self.code, self.report["session"], alone["session"]), (code, self.file, None))
-        self.assertEqual(without_wall_clock(self.report), without_wall_clock(alone))
+        self.assertEqual(without_run(self.report), without_run(alone))
 
     def test_a_stranger_reads_every_message(self):
         file = McapFile(self.file)
@@ -127,7 +123,7 @@ class Session(unittest.TestCase):
                                  text=True, timeout=600, restore_signals=False, preexec_fn=lambda:
                                  resource.setrlimit(resource.RLIMIT_FSIZE, (300000, 300000)))
         self.assertEqual(limited.returncode, 0)
-        self.assertEqual(without_wall_clock(json.loads(limited.stdout)), without_wall_clock(self.report))
+        self.assertEqual(without_run(json.loads(limited.stdout)), without_run(self.report))
         self.assertIn("cut off", limited.stderr)
         self.assertIn("cure:", limited.stderr)
         self.assertGreater(len(McapFile(file).messages), 100)

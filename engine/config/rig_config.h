@@ -7,6 +7,7 @@
 #include "engine/calibration/calibrator_factory.h"
 #include "engine/flight/controller_options.h"
 #include "engine/flight/supervisor_options.h"
+#include "engine/geometry/camera_estimate.h"
 #include "engine/geometry/camera_model.h"
 #include "engine/geometry/rigid_transform.h"
 #include "engine/helicopter/helicopter_parameters.h"
@@ -24,6 +25,7 @@ struct CameraConfig {
   CameraModel model;
   std::optional<RigidTransform> camera_from_world;  ///< nothing: un-calibrated
   bool pose_is_guess = false;                       ///< `initial = true`
+  std::optional<Matrix6d> pose_covariance;          ///< of CameraEstimate's perturbation, if the file tells
 };
 
 /// A rig file, loaded and validated. Immutable after.

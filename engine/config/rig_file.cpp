@@ -1,7 +1,9 @@
 #include "engine/config/rig_file.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -46,7 +48,9 @@ CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, Toml
   const double fx = required("fx", 1.0), fy = required("fy", 1.0);
   const double cx = required("cx", 0.0), cy = required("cy", 0.0);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(5);
-  const Eigen::VectorXd distortion = table.numbers("distortion", 5).value_or(none);
+  const Eigen::VectorXd given = table.numbers("distortion", 5, 8).value_or(none);
+  std::array<double, 8> distortion{};
+  std::copy(given.begin(), given.end(), distortion.begin());
   table.finish();
   for (const double side : size)
     if (side < 1.0 || side > kLargestSide || side != std::floor(side))
@@ -57,7 +61,7 @@ CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, Toml
       table.fail(key, "'" + std::string(key) + "' is not positive",
                  "give the focal length in pixels, greater than 0");
   return CameraModel(static_cast<int>(size[0]), static_cast<int>(size[1]), fx, fy, cx, cy,
-                     {distortion[0], distortion[1], distortion[2], distortion[3], distortion[4]});
+                     distortion);
 }
 
 /// Finishes the table; its other keys have been read.
@@ -73,6 +77,20 @@ RigidTransform readPose(TomlTable& table) {
   return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), t};
 }
 
+/// The upper limit of 1e6 (a kilometre, squared) keeps sums of them finite.
+std::optional<Matrix6d> readCovariance(TomlTable& table) {
+  const auto entries = table.numbers("covariance", 36);
+  if (!entries) return std::nullopt;
+  const Matrix6d covariance = Eigen::Map<const Matrix6d>(entries->data());
+  const double largest = covariance.cwiseAbs().maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(covariance, Eigen::EigenvaluesOnly);
+  if (largest > 1e6 || (covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * largest ||
+      eigen.eigenvalues().minCoeff() < -1e-6 * largest)
+    table.fail("covariance", "'covariance' is no covariance",
+               "give the six rows of a symmetric matrix without negative eigenvalues, or leave it out");
+  return covariance;
+}
+
 CameraConfig readCamera(TomlTable& table) {
   CameraConfig camera;
   camera.label = readLabel(table);
@@ -85,6 +103,7 @@ CameraConfig readCamera(TomlTable& table) {
   camera.model = readModel(table, size, std::move(intrinsics));
   if (!table.has("pose")) return camera;
   camera.pose_is_guess = pose.boolean("initial").value_or(false);
+  camera.pose_covariance = readCovariance(pose);
   camera.camera_from_world = readPose(pose);
   return camera;
 }

@@ -204,6 +204,14 @@ std::optional<Eigen::VectorXd> TomlTable::numbers(std::string_view key, int coun
   return state_->finiteArray(key, *node, count);
 }
 
+std::optional<Eigen::VectorXd> TomlTable::numbers(std::string_view key, int count, int other_count) {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return std::nullopt;
+  const toml::array* array = node->as_array();
+  const bool other = array != nullptr && static_cast<int>(array->size()) == other_count;
+  return state_->finiteArray(key, *node, other ? other_count : count);
+}
+
 std::optional<std::vector<Eigen::Vector3d>> TomlTable::points(std::string_view key) {
   const toml::node* node = state_->find(key);
   if (node == nullptr) return std::nullopt;

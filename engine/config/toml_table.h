@@ -32,6 +32,8 @@ class TomlTable {
   std::optional<std::string> textOrInteger(std::string_view key);
   /// Exactly `count` numbers.
   std::optional<Eigen::VectorXd> numbers(std::string_view key, int count);
+  /// `count` or `other_count` numbers.
+  std::optional<Eigen::VectorXd> numbers(std::string_view key, int count, int other_count);
   /// Any number of points [x, y, z].
   std::optional<std::vector<Eigen::Vector3d>> points(std::string_view key);
 

@@ -9,28 +9,39 @@ namespace {
 constexpr double kNearestDepth = 0.05;
 
 /// Squared radius at which d(distorted radius)/d(radius) vanishes, or a large number.
-double monotonicRadius2(const std::array<double, 5>& d) {
-  for (double r2 = 0.0; r2 < 9.0; r2 += 0.01)
-    if (1.0 + r2 * (3.0 * d[0] + r2 * (5.0 * d[1] + r2 * 7.0 * d[4])) <= 0.05) return r2;
+double monotonicRadius2(const std::array<double, 8>& d) {
+  for (double r2 = 0.0; r2 < 9.0; r2 += 0.01) {
+    const double numerator = 1.0 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
+    const double denominator = 1.0 + r2 * (d[5] + r2 * (d[6] + r2 * d[7]));
+    if (denominator <= 0.05) return r2;
+    const double slope = 1.0 + r2 * (3.0 * d[0] + r2 * (5.0 * d[1] + r2 * 7.0 * d[4]));
+    const double denominator_slope = 2.0 * r2 * (d[5] + r2 * (2.0 * d[6] + r2 * 3.0 * d[7]));
+    if (slope - numerator * denominator_slope / denominator <= 0.05 * denominator) return r2;
+  }
   return 1e9;
 }
 
 }  // namespace
 
 CameraModel::CameraModel(int width, int height, double fx, double fy, double cx, double cy,
-                         const std::array<double, 5>& distortion)
+                         const std::array<double, 8>& distortion)
     : width_(width), height_(height), fx_(fx), fy_(fy), cx_(cx), cy_(cy), distortion_(distortion) {
   has_distortion_ = std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
+  rational_ = std::any_of(distortion.begin() + 5, distortion.end(), [](double k) { return k != 0.0; });
   if (has_distortion_) max_radius2_ = monotonicRadius2(distortion);
 }
 
 Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& b, Eigen::Matrix2d* jacobian) const {
-  const auto& [k1, k2, p1, p2, k3] = distortion_;
+  const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = distortion_;
   const double x = b.x(), y = b.y();
   const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double denominator = rational_ ? 1.0 + r2 * (k4 + r2 * (k5 + r2 * k6)) : 1.0;
+  if (rational_) radial /= denominator;
   if (jacobian != nullptr) {
-    const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // d radial / d x = slope x
+    double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // d radial / d x = slope x
+    if (rational_)
+      slope = (slope - radial * 2.0 * (k4 + r2 * (2.0 * k5 + r2 * 3.0 * k6))) / denominator;
     (*jacobian)(0, 0) = radial + x * x * slope + 2.0 * p1 * y + 6.0 * p2 * x;
     (*jacobian)(0, 1) = x * y * slope + 2.0 * p1 * x + 2.0 * p2 * y;
     (*jacobian)(1, 0) = (*jacobian)(0, 1);

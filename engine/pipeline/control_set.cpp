@@ -21,6 +21,7 @@ ControlSet::ControlSet(const RigConfig& rig)
     const CameraConfig& camera = rig.cameras[i];
     if (!camera.camera_from_world) continue;
     estimates_[i].camera_from_world = *camera.camera_from_world;
+    if (camera.pose_covariance) estimates_[i].covariance = *camera.pose_covariance;
     // A pose that the rig file vouches for flies; a first guess waits for its calibration.
     estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
     learning_[i] = camera.pose_is_guess;

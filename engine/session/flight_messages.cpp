@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace helical {
 namespace {
@@ -188,9 +189,10 @@ void encodeCameraInfo(CdrWriter& out, const CameraConfig& camera) {
   begin(out, 0, cameraFrame(camera));
   out.put(static_cast<std::uint32_t>(model.height()));
   out.put(static_cast<std::uint32_t>(model.width()));
-  out.putText("plumb_bob");
-  out.put(static_cast<std::uint32_t>(model.distortion().size()));
-  for (const double value : model.distortion()) out.put(value);
+  out.putText(model.rational() ? "rational_polynomial" : "plumb_bob");
+  const std::span distortion = std::span(model.distortion()).first(model.rational() ? 8 : 5);
+  out.put(static_cast<std::uint32_t>(distortion.size()));
+  for (const double value : distortion) out.put(value);
   Eigen::Matrix<double, 3, 4> projection = Eigen::Matrix<double, 3, 4>::Zero();
   projection.leftCols<3>() << model.fx(), 0.0, model.cx(), 0.0, model.fy(), model.cy(), 0.0, 0.0, 1.0;
   out.putAll(projection.leftCols<3>());

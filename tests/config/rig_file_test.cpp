@@ -23,13 +23,27 @@ TEST(RigFile, ReadsWhatTheFileSays) {
   EXPECT_EQ(camera.model.fy(), 560.1);
   EXPECT_EQ(camera.model.cx(), 319.5);
   EXPECT_EQ(camera.model.cy(), 239.0);
-  EXPECT_EQ(camera.model.distortion(), (std::array<double, 5>{-0.05, 0.01, 0.001, -0.002, 0.003}));
+  EXPECT_EQ(camera.model.distortion(), (std::array<double, 8>{-0.05, 0.01, 0.001, -0.002, 0.003}));
   ASSERT_TRUE(camera.camera_from_world);
   EXPECT_FALSE(camera.pose_is_guess);
   EXPECT_TRUE(camera.camera_from_world->rotation.isApprox(Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5)));
   EXPECT_EQ(camera.camera_from_world->translation, Eigen::Vector3d(0.1, -0.2, 3.0));
   EXPECT_EQ(rig.marker_options.hue_low, 50);
   EXPECT_EQ(rig.simulation.gust_factor, 0.5);
+}
+
+TEST(RigFile, TakesTheRationalModelAndACovariance) {
+  std::string rig = replaced(goodRig(), "0.003]", "0.003, 0.1, 0.2, 0.3]");
+  std::string rows = "[camera.pose]\ncovariance = [";
+  for (int i = 0; i < 36; ++i) rows += i % 7 == 0 ? "1e-4, " : "1e-5, ";
+  rig = replaced(rig, "[camera.pose]", rows + "]");
+  const CameraConfig camera = parseRig(rig, "good.toml").cameras[0];
+  EXPECT_EQ(camera.model.distortion()[7], 0.3);
+  EXPECT_TRUE(camera.model.rational());
+  ASSERT_TRUE(camera.pose_covariance);
+  EXPECT_EQ((*camera.pose_covariance)(3, 3), 1e-4);
+  EXPECT_EQ((*camera.pose_covariance)(3, 5), 1e-5);
+  EXPECT_ANY_THROW(parseRig(replaced(rig, "covariance = [1e-4", "covariance = [-1e-4"), "bad.toml"));
 }
 
 TEST(RigFile, WhatTheFileLeavesOutStaysAtItsDefault) {

@@ -16,6 +16,11 @@ CameraModel distorted() {
   return CameraModel(640, 480, 567.6, 560.0, 322.0, 236.0, {-0.25, 0.08, 0.001, -0.002, 0.01});
 }
 
+/// As a wide-angle webcam distorts.
+CameraModel rational() {
+  return CameraModel(640, 480, 567.6, 560.0, 322.0, 236.0, {0.9, 0.2, 0.001, -0.002, 0.02, 1.25, 0.45, 0.08});
+}
+
 /// A point that a 640x480 camera sees, some centimetres to metres away.
 Eigen::Vector3d visiblePoint(Random& random) {
   const double depth = random.uniform(0.1, 6.0);
@@ -30,14 +35,15 @@ TEST(CameraModel, ProjectsByThePinholeWithoutDistortion) {
 }
 
 /// The formula as OpenCV's documentation of calib3d prints it.
-TEST(CameraModel, DistortsAsBrownAndConrady) {
-  const CameraModel camera = distorted();
-  const auto& [k1, k2, p1, p2, k3] = camera.distortion();
+TEST(CameraModel, DistortsAsBrownAndConradyAndByTheRationalModel) {
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
+    const CameraModel camera = i % 2 == 0 ? distorted() : rational();
+    const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = camera.distortion();
     const Eigen::Vector3d point = visiblePoint(random);
     const double x = point.x() / point.z(), y = point.y() / point.z(), r2 = x * x + y * y;
-    const double radial = 1 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2;
+    const double radial = (1 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2) /
+                          (1 + k4 * r2 + k5 * r2 * r2 + k6 * r2 * r2 * r2);
     const double u = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
     const double v = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
     const auto pixel = camera.project(point);
@@ -49,7 +55,7 @@ TEST(CameraModel, DistortsAsBrownAndConrady) {
 
 TEST(CameraModel, JacobianIsTheDerivative) {
   Random random(2);
-  for (const CameraModel& camera : {plain(), distorted()})
+  for (const CameraModel& camera : {plain(), distorted(), rational()})
     for (int i = 0; i < 500; ++i) {
       const Eigen::Vector3d point = visiblePoint(random);
       Eigen::Matrix<double, 2, 3> jacobian;
@@ -62,7 +68,7 @@ TEST(CameraModel, JacobianIsTheDerivative) {
 
 TEST(CameraModel, BearingUndoesProjection) {
   Random random(3);
-  for (const CameraModel& camera : {plain(), distorted()})
+  for (const CameraModel& camera : {plain(), distorted(), rational()})
     for (int i = 0; i < 1000; ++i) {
       const Eigen::Vector3d point = visiblePoint(random);
       const auto pixel = camera.project(point);

@@ -24,7 +24,7 @@ Field::Field() {
   for (const double azimuth : {-65.0, 60.0, 180.0}) {
     usable[models.size()] = true;
     models.emplace_back(640, 480, 567.6, 567.6, 319.5, 239.5,
-                        std::array<double, 5>{-0.05, 0.01, 0.0004, -0.0003, 0.0});
+                        std::array<double, 8>{-0.05, 0.01, 0.0004, -0.0003, 0.0});
     CameraEstimate estimate;
     estimate.camera_from_world = cameraAt(toRadians(azimuth), toRadians(40.0));
     estimate.status = CameraStatus::kCalibrated;

@@ -26,9 +26,6 @@ namespace helical {
 namespace {
 
 constexpr int kProgressTicks = 60;
-constexpr double kLongestLiftOffS = 8.0;
-constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
-constexpr double kTimeToSpare = 20.0;  // beyond the plan's landing before a flight counts as aborted
 
 struct FlyArguments {
   std::string rig;
@@ -39,6 +36,7 @@ struct FlyArguments {
   bool realtime = false;
   bool json = false;
   std::string session;
+  std::vector<std::string> session_images;
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
   std::vector<std::string> uncalibrated;
@@ -93,21 +91,6 @@ FlightPlan configuredPlan(const FlyArguments& arguments) {
   return plan;
 }
 
-/// Longest time the plan can take: every leg at its speed, every hold.
-double plannedSeconds(const FlightPlan& plan) {
-  double total = kBeforeStartS + plan.start_delay_s + kLandingS;
-  if (plan.land_at_s > 0.0) return total + plan.land_at_s;
-  total += kLongestLiftOffS + plan.waypoints.front().position_above_pad.z() / plan.climb_speed +
-           plan.waypoints.front().position_above_pad.head<2>().norm() / plan.waypoints.front().speed;
-  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {
-    total += plan.waypoints[i].hold_s + kLongestTurnS;
-    if (i > 0)
-      total += (plan.waypoints[i].position_above_pad - plan.waypoints[i - 1].position_above_pad).norm() /
-               plan.waypoints[i].speed;
-  }
-  return total;
-}
-
 std::string knownCalibrators() {
   std::string names;
   for (const auto name : calibratorNames()) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -124,6 +107,7 @@ std::unique_ptr<Recorder> startRecorder(const FlyArguments& arguments, const Rig
   settings.rig = rig;
   settings.plan = plan;
   settings.realtime = arguments.realtime;
+  settings.images = parseImageRecordings(arguments.session_images, rig);
   return std::make_unique<Recorder>(
       arguments.session, settings,
       arguments.realtime ? Recorder::WhenFull::kDrop : Recorder::WhenFull::kWait);
@@ -132,11 +116,12 @@ std::unique_ptr<Recorder> startRecorder(const FlyArguments& arguments, const Rig
 /// The flight counts, whatever became of its record.
 void finishRecord(Recorder& recorder) {
   recorder.finish();
-  if (recorder.failed())
-    log(LogLevel::kWarning, "the record of the flight is cut off: " + recorder.failure());
   if (recorder.lost() > 0)
     log(LogLevel::kWarning, "the disk was too slow: the record lacks " + std::to_string(recorder.lost()) +
                                 " observations, ticks or events");
+  if (recorder.lostImages() > 0)
+    log(LogLevel::kWarning,
+        "the disk was too slow: the record lacks " + std::to_string(recorder.lostImages()) + " images");
 }
 
 int fly(const FlyArguments& arguments) {
@@ -151,7 +136,7 @@ int fly(const FlyArguments& arguments) {
       if (now.tick % kProgressTicks == 0)
         progress.update(toSeconds(now.time) / planned_s, toString(now.phase));
     };
-    run = runFlight(rig, plan, planned_s + kTimeToSpare, arguments.realtime, show, recorder.get());
+    run = runFlight(rig, plan, planned_s + kTimeToSpareS, arguments.realtime, show, recorder.get());
   }
   if (recorder) finishRecord(*recorder);
   run.session = arguments.session;
@@ -202,7 +187,12 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_flag("--realtime", arguments->realtime,
                     "At the pace of the wall clock, in the engine's own threads");
-  command->add_option("--session", arguments->session, "Record the flight to this MCAP file");
+  CLI::Option* session =
+      command->add_option("--session", arguments->session, "Record the flight to this MCAP file");
+  command
+      ->add_option("--session-images", arguments->session_images,
+                   "[CAM=]off|jpeg|lossless[@HZ]: images in the record, of one camera or all (default off)")
+      ->needs(session);
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->callback([arguments, &exit_code] { exit_code = fly(*arguments); });
 }

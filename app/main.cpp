@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/detect.h"
 #include "app/experiment.h"
 #include "app/export.h"
 #include "app/fly.h"
+#include "app/option_values.h"
 #include "app/recover.h"
 #include "app/replay.h"
 #include "engine/base/error.h"
@@ -35,14 +38,28 @@ int exitCode(ErrorKind kind) {
   return kFailed;
 }
 
-int openWindow(const std::string& rig_file, const std::string& plan, int argc, char** argv) {
+struct WindowArguments {
+  std::string rig_file;
+  std::string plan = "demonstration";
+  bool no_record = false;
+  std::vector<std::string> session_images;
+};
+
+int openWindow(const WindowArguments& arguments, int argc, char** argv) {
 #ifdef HELICAL_HAS_WINDOW
-  const std::filesystem::path rig =
-      rig_file.empty() ? helical::resourceFolder() / "rigs" / "paper.toml" : std::filesystem::path(rig_file);
-  return helical::runWindow(argc, argv, helical::loadRig(rig), helical::loadPlan(helical::planPath(plan)),
-                            rig_file.empty());
+  const std::filesystem::path rig = arguments.rig_file.empty()
+                                        ? helical::resourceFolder() / "rigs" / "paper.toml"
+                                        : std::filesystem::path(arguments.rig_file);
+  helical::WindowFlight flight;
+  flight.rig = helical::loadRig(rig);
+  flight.plan_file = helical::planPath(arguments.plan);
+  flight.plan = helical::loadPlan(flight.plan_file);
+  flight.demonstration = arguments.rig_file.empty();
+  flight.record = !arguments.no_record;
+  flight.images = helical::parseImageRecordings(arguments.session_images, flight.rig);
+  return helical::runWindow(argc, argv, std::move(flight));
 #else
-  static_cast<void>(rig_file), static_cast<void>(plan), static_cast<void>(argc), static_cast<void>(argv);
+  static_cast<void>(arguments), static_cast<void>(argc), static_cast<void>(argv);
   throw helical::Error(ErrorKind::kInput, "this build has no window", {},
                        "use a sub-command such as `helical fly`, or build the preset release");
 #endif
@@ -57,16 +74,21 @@ int main(int argc, char** argv) {
       "Without a sub-command: the window on the simulated rig.\n"
       "Exit codes: 0 done, 1 the flight or check failed, 2 bad usage or input, 3 a device is missing or "
       "lost.");
-  std::string rig_file, plan = "demonstration";
-  app.add_option("--rig", rig_file, "Rig file for the window");
-  app.add_option("--plan", plan, "Flight plan for the window: demonstration, hover, waypoints, or a file");
+  WindowArguments window;
+  const std::vector<CLI::Option*> of_window{
+      app.add_option("--rig", window.rig_file, "Rig file for the window"),
+      app.add_option("--plan", window.plan,
+                     "Flight plan for the window: demonstration, hover, waypoints, or a file"),
+      app.add_flag("--no-record", window.no_record, "The window's flight leaves no session behind"),
+      app.add_option("--session-images", window.session_images,
+                     "[CAM=]off|jpeg|lossless[@HZ]: images in the window's record, of one camera or all")};
   int exit_code = 0;
-  // These two belong to the window: a flight on another rig than the one that was named would be a bad
-  // surprise.
+  // They belong to the window: a flight on another rig than the one that was named would be a bad surprise.
   app.parse_complete_callback([&] {
-    if (!app.get_subcommands().empty() && (app.count("--rig") > 0 || app.count("--plan") > 0))
-      throw helical::Error(ErrorKind::kInput, "--rig and --plan before a sub-command are the window's", {},
-                           "give them behind the sub-command: helical fly --rig FILE");
+    for (const CLI::Option* option : of_window)
+      if (!app.get_subcommands().empty() && option->count() > 0)
+        throw helical::Error(ErrorKind::kInput, option->get_name() + " before a sub-command is the window's",
+                             {}, "give it behind the sub-command: helical fly --rig FILE");
   });
   helical::addFlyCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
@@ -77,7 +99,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
-    if (app.get_subcommands().empty()) exit_code = openWindow(rig_file, plan, argc, argv);
+    if (app.get_subcommands().empty()) exit_code = openWindow(window, argc, argv);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : kBadInput;

@@ -1,5 +1,6 @@
 #include "app/option_values.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -49,6 +50,24 @@ class Scanner {
   std::string_view form_;
 };
 
+ImageRecording parseImageRecording(const std::string& text) {
+  ImageRecording recording;
+  const std::string word = text.substr(0, text.find('@'));
+  if (word == "jpeg")
+    recording.quality = ImageQuality::kJpeg;
+  else if (word == "lossless")
+    recording.quality = ImageQuality::kLossless;
+  const std::string form = "[CAM=]off|jpeg|lossless[@HZ], as in jpeg or 2=lossless@10";
+  if (word.size() < text.size()) {
+    Scanner scanner(text, "--session-images", form);
+    scanner.label('@');
+    recording.rate_hz = scanner.number();
+  }
+  if ((recording.quality == ImageQuality::kOff && word != "off") || !(recording.rate_hz >= 0.0))
+    throw Error(ErrorKind::kInput, "--session-images " + text + " is not understood", {}, "give " + form);
+  return recording;
+}
+
 }  // namespace
 
 Occlusion parseOcclusion(const std::string& text, const RigConfig& rig) {
@@ -68,6 +87,21 @@ Bump parseBump(const std::string& text, const RigConfig& rig) {
   bump.angle = toRadians(scanner.number(','));
   bump.distance = scanner.number();
   return bump;
+}
+
+std::vector<ImageRecording> parseImageRecordings(const std::vector<std::string>& texts,
+                                                 const RigConfig& rig) {
+  std::vector<ImageRecording> images(rig.cameras.size());
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const std::string form = equals == std::string::npos ? text : text.substr(equals + 1);
+    const ImageRecording recording = parseImageRecording(form);
+    if (equals == std::string::npos)
+      std::fill(images.begin(), images.end(), recording);
+    else
+      images[static_cast<std::size_t>(rig.camera(text.substr(0, equals)).index())] = recording;
+  }
+  return images;
 }
 
 }  // namespace helical

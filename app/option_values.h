@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/config/rig_config.h"
+#include "engine/session/image_recording.h"
 
 namespace helical {
 
@@ -11,5 +13,8 @@ namespace helical {
 Occlusion parseOcclusion(const std::string& text, const RigConfig& rig);  ///< "2@13-25": camera, seconds
 Bump parseBump(const std::string& text,
                const RigConfig& rig);  ///< "3@10:5,0.05": camera, seconds, degrees, metres
+
+/// "jpeg", "lossless@10", "2=off": of each camera; later ones change what earlier ones said.
+std::vector<ImageRecording> parseImageRecordings(const std::vector<std::string>& texts, const RigConfig& rig);
 
 }  // namespace helical

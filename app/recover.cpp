@@ -21,6 +21,7 @@ int recover(const std::string& file) {
               static_cast<unsigned long long>(recovery.messages));
   if (recovery.damaged_chunks > 0)
     std::printf(", %llu damaged chunks left out", static_cast<unsigned long long>(recovery.damaged_chunks));
+  if (!recovery.original.empty()) std::printf("; the damaged file is kept as %s", recovery.original.c_str());
   std::printf("\n");
   return 0;
 }

@@ -6,15 +6,20 @@
 
 #include <QApplication>
 #include <QStandardPaths>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <future>
 #include <memory>
 
+#include "app/mending_offer.h"
 #include "engine/base/error.h"
+#include "engine/config/text_file.h"
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/first_guess.h"
+#include "engine/session/recorder.h"
+#include "engine/session/session_folder.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
 
@@ -66,18 +71,40 @@ void printFirstImage(qint64 since_process_start) {
                static_cast<long long>(since_process_start / kNanosecondsPerMillisecond));
 }
 
+/// The flight goes on, whatever the disk says: the window tells.
+std::unique_ptr<Recorder> startRecorder(const WindowFlight& flight) {
+  if (!flight.record) return nullptr;
+  SessionSettings settings;
+  settings.rig_text = readTextFile(flight.rig.path, "rig file");
+  settings.plan_text = readTextFile(flight.plan_file, "flight plan");
+  settings.rig = flight.rig;
+  settings.plan = flight.plan;
+  settings.realtime = true;
+  settings.images = flight.images;
+  std::filesystem::path file = sessionFolder();
+  try {
+    file = newSessionFile(file, flight.rig.path, std::chrono::system_clock::now());
+  } catch (const Error&) {
+    // Opening the folder itself fails, too, with the reason.
+  }
+  return std::make_unique<Recorder>(file, settings, Recorder::WhenFull::kDrop, Recorder::WhenRefused::kFlyOn);
+}
+
 }  // namespace
 
-int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool demonstration) {
+int runWindow(int argc, char** argv, WindowFlight flight) {
+  RigConfig& rig = flight.rig;
   // What there is to see of it are particles that gather where the camera is.
-  if (demonstration) rig.calibrator = "particle-filter";
+  if (flight.demonstration) rig.calibrator = "particle-filter";
   giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
   requireDisplay();
   preferGlx();
   keepSoftwareRendererModest();
+  const std::vector<std::filesystem::path> cut_off = cutOffSessions(sessionFolder());
+  const std::unique_ptr<Recorder> recorder = startRecorder(flight);
   // The engine prepares its sources while Qt opens the display.
-  auto starting = std::async(std::launch::async, [&rig, &plan] {
-    auto engine = std::make_unique<Engine>(rig, plan);
+  auto starting = std::async(std::launch::async, [&flight, &recorder] {
+    auto engine = std::make_unique<Engine>(flight.rig, flight.plan, recorder.get());
     engine->start();
     return engine;
   });
@@ -87,7 +114,7 @@ int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool
   theme::apply(application);
 
   WindowOptions options;
-  options.auto_take_off = demonstration;
+  options.auto_take_off = flight.demonstration;
   options.layout_file = QStandardPaths::writableLocation(QStandardPaths::AppConfigLocation) + "/layout.ini";
   MainWindow window(rig, options);
   QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);
@@ -95,9 +122,11 @@ int runWindow(int argc, char** argv, RigConfig rig, const FlightPlan& plan, bool
   window.show();
   const std::unique_ptr<Engine> engine = starting.get();
   window.attach(*engine);
+  MendingOffer offer(window, cut_off);
   const int exit_code = QApplication::exec();
   window.detach();
   engine->stop();
+  if (recorder) recorder->finish();
   return exit_code;
 }
 

@@ -15,31 +15,24 @@ namespace {
 
 constexpr double kAfterwardsS = 0.5;  // watched after the flight has ended
 constexpr double kShortestFlightS = 6.0;
+constexpr double kLongestLiftOffS = 8.0;
+constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
 
 /// The operator of a headless flight: orders the take-off once the pose is known, and knows when it is over.
 class Operator {
  public:
-  explicit Operator(double limit_s) : limit_s_(limit_s) {}
+  explicit Operator(double limit_s) : end_(limit_s) {}
 
   bool wantsTakeOff(const EngineSnapshot& now) {
     if (ordered_ || !now.pose_known) return false;
     ordered_ = true;
     return true;
   }
-
-  bool isOver(const EngineSnapshot& now) {
-    const bool landed = now.phase == FlightPhase::kOff && now.verdict.at_rest;
-    if (!landed && !now.verdict.crashed)
-      ended_ = -1;
-    else if (ended_ < 0)
-      ended_ = now.time;
-    return toSeconds(now.time) >= limit_s_ || (ended_ >= 0 && toSeconds(now.time - ended_) >= kAfterwardsS);
-  }
+  bool isOver(const EngineSnapshot& now) { return end_.isOver(now); }
 
  private:
-  double limit_s_;
+  FlightEnd end_;
   bool ordered_ = false;
-  TimeNs ended_ = -1;
 };
 
 void fly(LockStep& flight, Operator& pilot, FlightRun& run, const TickListener& listener) {
@@ -75,6 +68,29 @@ void landWithin(FlightPlan& plan, double session_s) {
                 "a session of " + std::to_string(session_s) + " seconds is too short to fly", {},
                 "give at least " + std::to_string(around + kShortestFlightS) + " seconds");
   plan.land_at_s = session_s - around;
+}
+
+double plannedSeconds(const FlightPlan& plan) {
+  double total = kBeforeStartS + plan.start_delay_s + kLandingS;
+  if (plan.land_at_s > 0.0) return total + plan.land_at_s;
+  total += kLongestLiftOffS + plan.waypoints.front().position_above_pad.z() / plan.climb_speed +
+           plan.waypoints.front().position_above_pad.head<2>().norm() / plan.waypoints.front().speed;
+  for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {
+    total += plan.waypoints[i].hold_s + kLongestTurnS;
+    if (i > 0)
+      total += (plan.waypoints[i].position_above_pad - plan.waypoints[i - 1].position_above_pad).norm() /
+               plan.waypoints[i].speed;
+  }
+  return total;
+}
+
+bool FlightEnd::isOver(const EngineSnapshot& now) {
+  const bool landed = now.phase == FlightPhase::kOff && now.verdict.at_rest;
+  if (!landed && !now.verdict.crashed)
+    ended_ = -1;
+  else if (ended_ < 0)
+    ended_ = now.time;
+  return toSeconds(now.time) >= limit_s_ || (ended_ >= 0 && toSeconds(now.time - ended_) >= kAfterwardsS);
 }
 
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,

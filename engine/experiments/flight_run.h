@@ -31,6 +31,24 @@ inline constexpr double kLandingS = 6.0;
 /// short to fly.
 void landWithin(FlightPlan& plan, double session_s);
 
+/// Longest time the plan can take: every leg at its speed, every hold.
+double plannedSeconds(const FlightPlan& plan);
+
+/// Beyond that, before a flight counts as aborted.
+inline constexpr double kTimeToSpareS = 20.0;
+
+/// Knows when a flight is over: at rest with its rotors off or crashed, and watched for a moment after; or at
+/// `limit_s`. One flight, every tick of it.
+class FlightEnd {
+ public:
+  explicit FlightEnd(double limit_s) : limit_s_(limit_s) {}
+  bool isOver(const EngineSnapshot& now);
+
+ private:
+  double limit_s_;
+  TimeNs ended_ = -1;
+};
+
 /// Flies the plan from take-off to rest (or crash, or `limit_s`), headless: in lock step, or with `realtime`
 /// in the engine's own threads at the pace of the wall clock. `tap` sees the flight on its thread.
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,

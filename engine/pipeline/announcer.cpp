@@ -79,6 +79,7 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
     raise(event(now.time, Severity::kDanger, "Output fell back to rotors off: the flight thread was silent"));
   }
   for (std::size_t i = 0; i < names_.size(); ++i) announceCamera(now, i, raise);
+  announceRecord(now, raise);
   if (now.gust_ordered && !gust_blew_) raise(event(now.time, Severity::kInfo, "A gust"));
   gust_blew_ = now.gust_ordered;
   if (now.phase != phase_) raise(event(now.time, Severity::kInfo, phaseText(now.phase)));
@@ -88,6 +89,18 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   }
   phase_ = now.phase;
   safety_ = now.safety;
+}
+
+void Announcer::announceRecord(const EngineSnapshot& now, const Sink& raise) {
+  if (now.record.cut_off && !record_.cut_off)
+    raise(event(now.time, Severity::kDanger,
+                "The disk refuses the record: the flight goes on without one; see the log"));
+  // Once: how much is lost, the counter tells.
+  if (now.record.lost > 0 && record_.lost == 0)
+    raise(event(now.time, Severity::kCaution, "The disk is too slow: the record of this flight has gaps"));
+  if (now.record.lost_images > 0 && record_.lost_images == 0)
+    raise(event(now.time, Severity::kCaution, "The disk is too slow: images are missing in the record"));
+  record_ = now.record;
 }
 
 void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise) {

@@ -34,6 +34,7 @@ class Announcer {
     int boards = 0;
     std::uint32_t knocks = 0;
   };
+  void announceRecord(const EngineSnapshot& now, const Sink& raise);
   void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
 
   std::vector<std::string> names_;
@@ -42,6 +43,7 @@ class Announcer {
   bool had_pose_ = false;
   bool gave_up_ = false;
   bool gust_blew_ = false;
+  RecordHealth record_;
   std::array<Camera, kMaxCameras> cameras_{};
 };
 

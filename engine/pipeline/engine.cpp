@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/spsc_queue.h"
 #include "engine/pipeline/announcer.h"
+#include "engine/pipeline/calibration_view.h"
 #include "engine/pipeline/flight_loop.h"
 #include "engine/pipeline/flight_tap.h"
 #include "engine/pipeline/hand_over.h"
@@ -25,28 +26,8 @@ namespace {
 constexpr TimeNs kOutputPeriod = 5 * kNanosecondsPerMillisecond;
 constexpr TimeNs kPicturePeriod = 33 * kNanosecondsPerMillisecond;
 constexpr TimeNs kLongestWait = 20 * kNanosecondsPerMillisecond;
-constexpr std::uint64_t kCalibrationViewTicks = 2;
 
 using ObservationQueue = SpscQueue<Observation, 16>;
-
-/// Every so many particles, so that the cloud keeps its shape.
-void fillView(const CameraCalibration& calibration, CalibrationView& view) {
-  const auto particles = calibration.calibrator().particles();
-  view.total = static_cast<int>(particles.size());
-  view.count = 0;
-  if (particles.empty()) return;
-  const std::size_t step =
-      (particles.size() + CalibrationView::kMaxParticles - 1) / CalibrationView::kMaxParticles;
-  float heaviest = 0.0F;
-  for (std::size_t i = 0; i < particles.size(); i += step) {
-    CalibrationView::Particle& particle = view.particles[static_cast<std::size_t>(view.count++)];
-    particle.centre_in_world = particles[i].camera_from_world.inverseTranslation().cast<float>();
-    particle.weight = static_cast<float>(particles[i].weight);
-    heaviest = std::max(heaviest, particle.weight);
-  }
-  if (heaviest <= 0.0F) return;
-  for (int i = 0; i < view.count; ++i) view.particles[static_cast<std::size_t>(i)].weight /= heaviest;
-}
 
 std::size_t cameraOf(const Observation& observation) {
   return static_cast<std::size_t>(observation.camera.index());
@@ -109,6 +90,7 @@ struct Engine::Implementation {
         hardware(openRig(rig, clock,
                          [this](const Frame& frame, const Observation& observation) {
                            taps[static_cast<std::size_t>(frame.camera.index())].take(frame, observation);
+                           if (tap != nullptr) tap->onFrame(frame, observation);
                          })),
         loop(rig, plan),
         output(*hardware.transmitter),
@@ -126,7 +108,7 @@ struct Engine::Implementation {
   void hide(std::size_t camera, bool hide_it);
   void tick(TimeNs now);
   void takeCalibrations(TimeNs now);
-  void showCalibrations(std::uint64_t tick);
+  void showCalibrations(std::uint64_t tick, TimeNs now);
   void addOrders(EngineSnapshot& snapshot) const;
   void measureRate(EngineSnapshot& snapshot);
   void replaceCalibration(std::size_t camera, const std::string& method);
@@ -229,7 +211,8 @@ void Engine::Implementation::tick(TimeNs now) {
   hardware.addTruth(snapshot, now);
   addOrders(snapshot);
   measureRate(snapshot);
-  showCalibrations(snapshot.tick);
+  if (tap != nullptr) snapshot.record = tap->health();
+  showCalibrations(snapshot.tick, now);
   if (!tick_queue->push(snapshot)) lost.fetch_add(1, std::memory_order_relaxed);
   if (tap != nullptr) tap->onTick(commands, snapshot);
   announcer.announce(snapshot, output.gaveUp(), [this](const EngineEvent& event) { raise(event); });
@@ -251,12 +234,13 @@ void Engine::Implementation::takeCalibrations(TimeNs now) {
   }
 }
 
-void Engine::Implementation::showCalibrations(std::uint64_t tick) {
+void Engine::Implementation::showCalibrations(std::uint64_t tick, TimeNs now) {
   if (tick % kCalibrationViewTicks != 0) return;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const CameraCalibration* calibration = loop.calibration(cameraId(static_cast<int>(i)));
     if (calibration == nullptr) continue;
     fillView(*calibration, calibration_views[i].back());
+    if (tap != nullptr) tap->onBelief(cameraId(static_cast<int>(i)), calibration_views[i].back(), now);
     calibration_views[i].publish();
   }
 }

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/config/rig_config.h"
-#include "engine/flight/flight_plan.h"
-#include "engine/pipeline/snapshot.h"
+#include "engine/pipeline/flight_view.h"
 #include "engine/pipeline/white_board.h"
 
 namespace helical {
@@ -14,19 +12,18 @@ namespace helical {
 class FlightTap;
 
 /// A flight in real time: one capture thread per camera, one tracking and flight thread, one output thread.
-/// This is the whole of the engine that the window knows. Reading methods are for one thread (the window's);
-/// none of them blocks the engine, nor does the engine ever wait for them.
-class Engine {
+/// This is the whole of the engine that the window knows. What it shows, it shows as a FlightView.
+class Engine final : public FlightView {
  public:
   /// Builds sources and transmitter as the rig says. Throws Error when something is missing. `tap` sees the
   /// flight on its thread until `stop` and outlives the engine.
   Engine(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap = nullptr);
-  ~Engine();  ///< stops: rotors off first
+  ~Engine() override;  ///< stops: rotors off first
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  const RigConfig& rig() const;
-  const FlightPlan& plan() const;
+  const RigConfig& rig() const override;
+  const FlightPlan& plan() const override;
 
   /// Once in the engine's life: after a stop the rotors stay off.
   void start();
@@ -54,23 +51,16 @@ class Engine {
   /// The same for one camera, with the method of the others.
   void restartCalibration(CameraId camera);
 
-  /// True if `snapshot()` is newer than at the last call.
-  bool poll();
-  const EngineSnapshot& snapshot() const;
-
-  /// Newest picture of a camera at display rate; false if there is none since the last call.
-  bool pollPicture(CameraId camera);
-  const CameraPicture& picture(CameraId camera) const;
-
-  /// What a camera's calibrator believes, at display rate; false if there is nothing new since the last call.
-  bool pollCalibration(CameraId camera);
-  const CalibrationView& calibration(CameraId camera) const;
-
-  /// Every control tick's snapshot in order, for plots that must not miss one; false when there is none.
-  bool nextTick(EngineSnapshot& tick);
-  bool nextEvent(EngineEvent& event);
-  /// Ticks and events lost because the window did not fetch them in time.
-  std::uint64_t lostTicks() const;
+  // FlightView.
+  bool poll() override;
+  const EngineSnapshot& snapshot() const override;
+  bool pollPicture(CameraId camera) override;
+  const CameraPicture& picture(CameraId camera) const override;
+  bool pollCalibration(CameraId camera) override;
+  const CalibrationView& calibration(CameraId camera) const override;
+  bool nextTick(EngineSnapshot& tick) override;
+  bool nextEvent(EngineEvent& event) override;
+  std::uint64_t lostTicks() const override;
 
  private:
   struct Implementation;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "engine/cameras/frame.h"
 #include "engine/flight/autopilot.h"
 #include "engine/markers/observation.h"
 #include "engine/pipeline/snapshot.h"
@@ -9,8 +10,8 @@
 namespace helical {
 
 /// Sees everything that goes into a flight loop, in the order in which it does, and what comes out: who
-/// repeats it to another loop gets the same flight. Called on the flight thread: implementations on a flight
-/// in real time neither lock nor allocate, and never throw.
+/// repeats it to another loop gets the same flight. Called on the flight thread, but for `onFrame`:
+/// implementations on a flight in real time neither lock nor allocate, and never throw.
 class FlightTap {
  public:
   virtual ~FlightTap() = default;
@@ -24,6 +25,14 @@ class FlightTap {
   /// A camera's calibration began anew. `method` is a literal.
   virtual void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) = 0;
   virtual void onEvent(const EngineEvent& event) = 0;
+
+  // What no flight depends on:
+  /// What a camera's calibrator believes, thirty times a second.
+  virtual void onBelief(CameraId camera, const CalibrationView& belief, TimeNs now) = 0;
+  /// A camera's frame and what was found in it, on the camera's capture thread.
+  virtual void onFrame(const Frame& frame, const Observation& observation) = 0;
+  /// For the snapshot: how the record is doing.
+  virtual RecordHealth health() const = 0;
 };
 
 }  // namespace helical

@@ -1,5 +1,7 @@
 #include "engine/pipeline/lock_step.h"
 
+#include "engine/pipeline/calibration_view.h"
+
 namespace helical {
 namespace {
 
@@ -8,8 +10,12 @@ constexpr TimeNs kStep = kNanosecondsPerMillisecond;
 }  // namespace
 
 LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
-    : clock_(std::make_shared<ManualClock>()),
-      hardware_(openRig(rig, clock_)),
+    : rig_(rig),
+      clock_(std::make_shared<ManualClock>()),
+      hardware_(openRig(rig, clock_,
+                        [tap](const Frame& frame, const Observation& observation) {
+                          if (tap != nullptr) tap->onFrame(frame, observation);
+                        })),
       loop_(rig, plan),
       output_(*hardware_.transmitter),
       tap_(tap),
@@ -32,12 +38,21 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   output_.step(now);
   snapshot_ = loop_.snapshot();
   hardware_.addTruth(snapshot_, now);
-  if (tap_ != nullptr) {
-    tap_->onTick(gated, snapshot_);
-    announcer_.announce(snapshot_, output_.gaveUp(),
-                        [this](const EngineEvent& event) { tap_->onEvent(event); });
-  }
+  if (tap_ != nullptr) show(gated, now);
   return snapshot_;
+}
+
+void LockStep::show(const OperatorCommands& commands, TimeNs now) {
+  snapshot_.record = tap_->health();
+  for (int i = 0; snapshot_.tick % kCalibrationViewTicks == 0 && i < snapshot_.camera_count; ++i) {
+    const CameraCalibration* calibration = loop_.calibration(cameraId(i));
+    if (calibration == nullptr) continue;
+    fillView(*calibration, belief_);
+    tap_->onBelief(cameraId(i), belief_, now);
+  }
+  tap_->onTick(commands, snapshot_);
+  announcer_.announce(snapshot_, output_.gaveUp(),
+                      [this](const EngineEvent& event) { tap_->onEvent(event); });
 }
 
 void LockStep::use(const Observation& observation) {
@@ -50,6 +65,16 @@ void LockStep::use(const Observation& observation) {
 void LockStep::hideCamera(CameraId camera, bool hidden) {
   loop_.hideCamera(camera, hidden);
   if (tap_ != nullptr) tap_->onHidden(camera, hidden, clock_->now());
+}
+
+void LockStep::calibrate(CameraId id, const std::string& method, std::uint64_t seed) {
+  const CameraConfig& camera = rig_.cameras[static_cast<std::size_t>(id.index())];
+  if (!camera.camera_from_world) return;
+  auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig_.markers_in_body,
+                                                         *camera.camera_from_world, seed, rig_.calibration);
+  const char* name = calibration->calibrator().name();
+  loop_.swapCalibration(id, calibration);
+  if (tap_ != nullptr) tap_->onCalibration(id, name, seed, clock_->now());
 }
 
 }  // namespace helical

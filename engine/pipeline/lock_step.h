@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "engine/base/clock.h"
 #include "engine/pipeline/announcer.h"
@@ -23,10 +24,14 @@ class LockStep {
   const EngineSnapshot& tick(const OperatorCommands& commands);
 
   void hideCamera(CameraId camera, bool hidden);
+  /// Begins a camera's calibration anew; one without a pose or a guess has nothing to begin from.
+  void calibrate(CameraId camera, const std::string& method, std::uint64_t seed);
 
  private:
   void use(const Observation& observation);
+  void show(const OperatorCommands& commands, TimeNs now);
 
+  RigConfig rig_;
   std::shared_ptr<ManualClock> clock_;
   RigHardware hardware_;
   FlightLoop loop_;
@@ -34,6 +39,7 @@ class LockStep {
   FlightTap* tap_;
   Announcer announcer_;
   EngineSnapshot snapshot_;
+  CalibrationView belief_;
   double tick_period_s_;
   std::uint64_t ticks_ = 0;
 };

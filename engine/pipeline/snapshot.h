@@ -38,6 +38,14 @@ struct CameraSnapshot {
   CameraTrack track;
 };
 
+/// How the record of the flight is doing.
+struct RecordHealth {
+  bool recording = false;
+  bool cut_off = false;           ///< the disk refused: nothing is recorded any more
+  std::uint64_t lost = 0;         ///< observations, ticks and events for which the disk was too slow
+  std::uint64_t lost_images = 0;  ///< likewise
+};
+
 /// The engine's state at one control tick; a plain value, copied to readers through a LatestValue.
 struct EngineSnapshot {
   TimeNs time = 0;
@@ -66,6 +74,7 @@ struct EngineSnapshot {
   TimeNs frame_to_command_p50 = 0;  ///< arrival of a camera's newest frame to the tick that first used it
   TimeNs frame_to_command_p99 = 0;
   double ticks_per_second = 0.0;
+  RecordHealth record;
   std::array<CameraSnapshot, kMaxCameras> cameras{};
 };
 

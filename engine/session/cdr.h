@@ -30,6 +30,11 @@ class CdrWriter {
     bytes_.putRaw(text);
     bytes_.putRaw({"\0", 1});
   }
+  /// A list of bytes.
+  void putBytes(std::string_view list) {
+    put(static_cast<std::uint32_t>(list.size()));
+    bytes_.putRaw(list);
+  }
   template <class Derived>
   void putAll(const Eigen::MatrixBase<Derived>& row_by_row) {
     for (Eigen::Index row = 0; row < row_by_row.rows(); ++row)
@@ -63,6 +68,7 @@ class CdrReader {
     const std::string_view text = in_.getRaw(size);
     return text.empty() ? text : text.substr(0, text.size() - 1);
   }
+  std::string_view getBytes() { return in_.getRaw(get<std::uint32_t>()); }
   bool atEnd() const { return in_.atEnd(); }
   std::size_t left() const { return in_.rest().size(); }
 

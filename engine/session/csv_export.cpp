@@ -8,11 +8,15 @@
 #include <memory>
 
 #include "engine/base/error.h"
+#include "engine/session/flight_messages.h"
+#include "engine/session/message_types.h"
 #include "engine/session/ros_message.h"
 
 namespace helical {
 namespace {
 
+// A table has no use for a message that packs points into bytes.
+constexpr const char* kParticle = "float32 x_m\nfloat32 y_m\nfloat32 z_m\nfloat32 weight\n";
 constexpr const char* kCure = "choose a folder that can be written to, on a disk with space";
 
 /// "/cameras/1/observation" is cameras_1_observation.csv.
@@ -60,7 +64,8 @@ class Table {
       : file_(std::move(file)),
         topic_(channel.topic),
         type_(schema.name),
-        message_(schema.name, schema.definition),
+        cloud_(schema.name == messageName(MessageKind::kPointCloud)),
+        message_(cloud_ ? "particles" : schema.name, cloud_ ? kParticle : schema.definition),
         stream_(openFile(file_)) {
     stream_ << "time_s [s]";
     for (const auto& column : message_.columns()) stream_ << ',' << header(column);
@@ -69,6 +74,7 @@ class Table {
 
   void add(const McapMessage& message) {
     const std::string time = secondsText(message.log_time);
+    if (cloud_) return addCloud(time, message.payload);
     message_.rows(message.payload, [&](const std::vector<std::string>& cells) {
       stream_ << time;
       for (const auto& cell : cells) stream_ << ',' << quoted(cell);
@@ -88,12 +94,23 @@ class Table {
   }
 
  private:
+  /// One row a particle.
+  void addCloud(const std::string& time, std::string_view payload) {
+    CalibrationView view;
+    decodeBelief(payload, view);
+    for (int i = 0; i < view.count; ++i, ++rows_) {
+      const CalibrationView::Particle& particle = view.particles[static_cast<std::size_t>(i)];
+      const Eigen::Vector3f& at = particle.centre_in_world;
+      stream_ << time << ',' << at.x() << ',' << at.y() << ',' << at.z() << ',' << particle.weight << '\n';
+    }
+  }
   static std::string header(const RosMessage::Column& column) {
     return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
   }
 
   std::filesystem::path file_;
   std::string topic_, type_;
+  bool cloud_;
   RosMessage message_;
   std::ofstream stream_;
   std::uint64_t rows_ = 0;
@@ -116,7 +133,10 @@ constexpr const char* kReadmeHead =
     "- Observations have one row for every centroid, and one with empty cells when there is none. `marker` "
     "is\n"
     "  counted from 0; -1 is a centroid without a name.\n"
-    "- true and false are 1 and 0.\n\n";
+    "- `particles` has one row for every hypothesis of where a camera is, thinned out; the heaviest weight "
+    "is "
+    "1.\n"
+    "- true and false are 1 and 0. Images are not exported as tables.\n\n";
 
 }  // namespace
 
@@ -128,7 +148,7 @@ CsvExport exportCsv(McapReader& session, const std::filesystem::path& folder) {
                 folder.string(), kCure);
   std::map<std::uint16_t, std::unique_ptr<Table>> tables;
   CsvExport result;
-  result.reading = session.read([&](const McapMessage& message) {
+  result.reading = session.read(withoutImages(session), [&](const McapMessage& message) {
     std::unique_ptr<Table>& table = tables[message.channel];
     if (!table) {
       const auto channel = session.channels().find(message.channel);

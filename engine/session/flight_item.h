@@ -33,12 +33,18 @@ struct CalibrationBegun {
   TimeNs time = 0;
 };
 
+struct CameraBelief {
+  CameraId camera;
+  TimeNs time = 0;
+  CalibrationView view;
+};
+
 /// One thing that a session writes down, in the order in which it reached the flight thread. Allocates
 /// nothing.
 struct FlightItem {
   std::uint64_t order =
-      0;  ///< counted from 1, also what was lost on the way to the disk; events do not count
-  std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun> what;
+      0;  ///< counted from 1, also what was lost on the way to the disk; events and beliefs do not count
+  std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun, CameraBelief> what;
 };
 
 }  // namespace helical

@@ -3,12 +3,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <span>
+
+#include "engine/session/image_codec.h"
 
 namespace helical {
 namespace {
 
-constexpr std::uint8_t kLogInfo = 20, kLogWarning = 30, kLogError = 40;
+constexpr std::uint8_t kFloat32 = 7;  // of sensor_msgs/PointField
+constexpr auto kBeliefStep = static_cast<std::uint32_t>(std::size(kBeliefFields) * sizeof(float));
 
 void putTime(CdrWriter& out, TimeNs time) {
   const TimeNs seconds = time / kNanosecondsPerSecond;
@@ -31,22 +35,9 @@ void putPose(CdrWriter& out, const RigidTransform& world_from_frame) {
   putQuaternion(out, world_from_frame.rotation);
 }
 
-RigidTransform getPose(CdrReader& in) {
-  RigidTransform pose;
-  for (double& value : pose.translation) value = in.get<double>();
-  for (double& value : pose.rotation.coeffs()) value = in.get<double>();
-  return pose;
-}
-
 /// A quaternion that means one yaw.
 Eigen::Quaterniond heading(double yaw) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
-}
-
-void skipHeader(CdrReader& in) {
-  in.get<std::int32_t>();
-  in.get<std::uint32_t>();
-  in.getText();
 }
 
 const char* statusName(CameraStatus status) {
@@ -96,21 +87,6 @@ void putCentroid(CdrWriter& out, const Centroid& centroid, const CameraTrack& tr
   out.put(named.selected);
   out.put(named.predicted);
   out.putAll(named.reprojected);
-}
-
-Centroid getCentroid(CdrReader& in) {
-  Centroid centroid;
-  for (double& value : centroid.pixel) value = in.get<double>();
-  for (int i = 0; i < 4; ++i) centroid.covariance(i / 2, i % 2) = in.get<double>();
-  centroid.area_px = in.get<double>();
-  centroid.radius_px = in.get<double>();
-  centroid.colour = in.get<std::int32_t>();
-  in.get<std::int32_t>();
-  in.getBool();
-  in.getBool();
-  in.get<double>();
-  in.get<double>();
-  return centroid;
 }
 
 }  // namespace
@@ -182,6 +158,12 @@ void encodeCameraState(CdrWriter& out, TimeNs time, const CameraSnapshot& camera
   out.put(camera.frames_per_second);
   for (const TimeNs time_ns : {camera.latency, camera.extraction_p50, camera.extraction_p99})
     out.put(time_ns);
+  const CalibrationBound bound = camera.calibration_bound.value_or(CalibrationBound{});
+  out.put(static_cast<std::int32_t>(camera.centroids));
+  out.put(static_cast<std::int32_t>(camera.knocks_found));
+  out.put(camera.calibration_bound.has_value());
+  out.put(bound.position_m);
+  out.put(bound.orientation_rad);
 }
 
 void encodeCameraInfo(CdrWriter& out, const CameraConfig& camera) {
@@ -221,6 +203,62 @@ void encodeObservation(CdrWriter& out, std::uint64_t order, const UsedObservatio
   }
 }
 
+void encodeTrack(CdrWriter& out, const UsedObservation& used, int markers, const std::string& frame) {
+  const CameraTrack& track = used.track;
+  begin(out, track.exposure, frame);
+  for (const int count : {track.predicted_count, track.agreeing_count, track.selected_count})
+    out.put(static_cast<std::int32_t>(count));
+  out.put(track.residual_px);
+  out.put(static_cast<std::uint32_t>(markers));
+  for (int m = 0; m < markers; ++m) {
+    const MarkerTrack& marker = track.markers[static_cast<std::size_t>(m)];
+    for (const bool flag : {marker.observed, marker.agrees, marker.selected, marker.predicted}) out.put(flag);
+    out.putAll(marker.pixel);
+    out.putAll(marker.reprojected);
+  }
+}
+
+void encodeBelief(CdrWriter& out, const CameraBelief& belief) {
+  const CalibrationView& view = belief.view;
+  begin(out, belief.time, kWorldFrame);
+  out.put(std::uint32_t{1});
+  out.put(static_cast<std::uint32_t>(view.count));
+  out.put(static_cast<std::uint32_t>(std::size(kBeliefFields)));
+  for (std::uint32_t i = 0; i < std::size(kBeliefFields); ++i) {
+    out.putText(kBeliefFields[i]);
+    out.put(static_cast<std::uint32_t>(i * sizeof(float)));
+    out.put(kFloat32);
+    out.put(std::uint32_t{1});
+  }
+  out.put(false);
+  out.put(kBeliefStep);
+  out.put(kBeliefStep * static_cast<std::uint32_t>(view.count));
+  ByteWriter points;
+  for (int i = 0; i < view.count; ++i) {
+    const CalibrationView::Particle& particle = view.particles[static_cast<std::size_t>(i)];
+    for (const float value : particle.centre_in_world) points.put(value);
+    points.put(particle.weight);
+  }
+  out.putBytes(points.bytes());
+  out.put(true);
+}
+
+void encodeImage(CdrWriter& out, const RecordedFrame& image, const std::string& frame) {
+  begin(out, image.exposure, frame);
+  out.put(static_cast<std::uint32_t>(image.height));
+  out.put(static_cast<std::uint32_t>(image.width));
+  out.putText(encodingName(image.format));
+  out.put(false);
+  out.put(static_cast<std::uint32_t>(image.width * bytesPerPixel(image.format)));
+  out.putBytes({reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size()});
+}
+
+void encodeJpeg(CdrWriter& out, const RecordedFrame& image, const std::string& frame) {
+  begin(out, image.exposure, frame);
+  out.putText("jpeg");
+  out.putBytes(jpegOf(image));
+}
+
 void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& tick) {
   const EngineSnapshot& state = tick.state;
   begin(out, state.time, kWorldFrame);
@@ -243,6 +281,9 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
   for (const TimeNs time :
        {state.server_p50, state.server_p99, state.frame_to_command_p50, state.frame_to_command_p99})
     out.put(time);
+  out.put(state.ticks_per_second);
+  out.putText(state.obstacle != nullptr ? state.obstacle : "");
+  out.putText(state.refusal != nullptr ? state.refusal : "");
   out.put(state.gust_ordered);
   out.put(state.has_truth);
   out.put(state.verdict.crashed);
@@ -277,7 +318,7 @@ void encodeEvent(CdrWriter& out, const EngineEvent& event) {
   out.clear();
   putTime(out, event.time);
   out.put(logLevel(event.severity));
-  out.putText("helical");
+  out.putText(event.severity == Severity::kGood ? kGoodNews : "helical");
   out.putText({event.text.data(), ::strnlen(event.text.data(), event.text.size())});
   out.putText("");
   out.putText("");
@@ -293,77 +334,6 @@ void encodeTransforms(CdrWriter& out, TimeNs time, std::span<const NamedTransfor
     out.putText(transform.frame);
     putPose(out, transform.world_from_frame);
   }
-}
-
-DecodedObservation decodeObservation(std::string_view payload) {
-  CdrReader in(payload);
-  skipHeader(in);
-  DecodedObservation decoded;
-  Observation& observation = decoded.observation;
-  decoded.order = in.get<std::uint64_t>();
-  decoded.used = in.get<TimeNs>();
-  observation.sequence = in.get<std::uint64_t>();
-  observation.exposure = in.get<TimeNs>();
-  observation.arrival = in.get<TimeNs>();
-  observation.extraction = in.get<TimeNs>();
-  observation.truncated = in.getBool();
-  const auto count = in.get<std::uint32_t>();
-  if (count > kMaxCentroids) throw CutShort();
-  observation.count = static_cast<int>(count);
-  for (std::size_t i = 0; i < count; ++i) observation.centroids[i] = getCentroid(in);
-  return decoded;
-}
-
-DecodedTick decodeFlightState(std::string_view payload) {
-  CdrReader in(payload);
-  skipHeader(in);
-  DecodedTick tick;
-  tick.order = in.get<std::uint64_t>();
-  tick.time = in.get<TimeNs>();
-  in.get<std::uint64_t>();
-  tick.commands.take_off = in.getBool();
-  tick.commands.land = in.getBool();
-  tick.commands.kill = in.getBool();
-  tick.phase = static_cast<FlightPhase>(
-      std::min<std::uint8_t>(in.get<std::uint8_t>(), static_cast<std::uint8_t>(FlightPhase::kOff)));
-  in.getText();
-  in.get<std::uint8_t>();
-  in.getText();
-  in.get<std::uint32_t>();
-  in.getBool();
-  in.get<TimeNs>();
-  in.getBool();
-  in.get<double>();
-  in.get<double>();
-  for (int i = 0; i < 4; ++i) in.get<TimeNs>();
-  tick.gust_ordered = in.getBool();
-  tick.has_truth = in.getBool();
-  tick.verdict.crashed = in.getBool();
-  tick.crash_reason = in.getText();
-  tick.verdict.crash_time_s = in.get<double>();
-  tick.verdict.has_flown = in.getBool();
-  tick.verdict.at_rest = in.getBool();
-  tick.verdict.hardest_touch = in.get<double>();
-  return tick;
-}
-
-DecodedOrder decodeOrder(std::string_view payload) {
-  CdrReader in(payload);
-  skipHeader(in);
-  DecodedOrder order;
-  order.order = in.get<std::uint64_t>();
-  order.time = in.get<TimeNs>();
-  order.kind = in.getText();
-  order.camera = in.get<std::int32_t>();
-  order.method = in.getText();
-  order.seed = in.get<std::uint64_t>();
-  return order;
-}
-
-RigidTransform decodePose(std::string_view payload) {
-  CdrReader in(payload);
-  skipHeader(in);
-  return getPose(in);
 }
 
 }  // namespace helical

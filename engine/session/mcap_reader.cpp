@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/session/byte_stream.h"
+#include "engine/session/message_types.h"
 
 namespace helical {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 constexpr std::uint64_t kLargestChunk = 64u << 20;
 constexpr std::uint64_t kLargestSmallRecord = 16u << 20;  // schemas, channels, attachments
 constexpr std::uint64_t kSearchWindow = 1u << 20;
+constexpr std::uint64_t kLargestSummary = 256u << 20;  // of a day's flight
+constexpr std::uint64_t kFooterContent = 8 + 8 + 4;
 constexpr std::uint64_t kChunkHead = 8 + 8 + 8 + 4;  // before the name of its compression
 
 constexpr std::string_view kZstdName{"\x04\0\0\0zstd", 8};
@@ -28,7 +31,7 @@ bool known(McapOpcode opcode) {
 
 }  // namespace
 
-McapReader::McapReader(std::filesystem::path file) : file_(std::move(file)) {
+McapReader::McapReader(std::filesystem::path file, Open open) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
@@ -40,7 +43,7 @@ McapReader::McapReader(std::filesystem::path file) : file_(std::move(file)) {
   size_ = static_cast<std::uint64_t>(status.st_size);
   try {
     if (bytesAt(0, kMcapMagic.size()) != kMcapMagic) throw CutShort();
-    scan();
+    if (open == Open::kByScan || !takeSummary()) scan();
   } catch (const CutShort&) {
     ::close(descriptor_);
     throw Error(ErrorKind::kInput, "this is no session: it does not begin as an MCAP file", file_.string(),
@@ -84,6 +87,7 @@ void McapReader::scan() {
       // Somebody changed a length, or the file was cut here: the next chunk is known by its compression.
       sound = false;
       at = before = nextChunk(std::max(before + 1, parts_.empty() ? 0 : parts_.back().offset));
+      gaps_ += at < size_;
       continue;
     }
     take(head, at + kMcapRecordHead);
@@ -96,9 +100,87 @@ void McapReader::scan() {
   }
 }
 
+bool McapReader::takeSummary() {
+  const std::uint64_t footer_size = kMcapRecordHead + kFooterContent;
+  if (size_ < 2 * kMcapMagic.size() + footer_size) return false;
+  const std::uint64_t footer_at = size_ - kMcapMagic.size() - footer_size;
+  const std::string footer = bytesAt(footer_at, size_ - footer_at);
+  ByteReader in(footer);
+  if (in.get<std::uint8_t>() != static_cast<std::uint8_t>(McapOpcode::kFooter) ||
+      in.get<std::uint64_t>() != kFooterContent || !footer.ends_with(kMcapMagic))
+    return false;
+  const auto start = in.get<std::uint64_t>();
+  in.get<std::uint64_t>();
+  const auto crc = in.get<std::uint32_t>();
+  if (start < kMcapMagic.size() || start >= footer_at || footer_at - start > kLargestSummary) return false;
+  const std::string summary = bytesAt(start, footer_at - start);
+  const std::uint32_t actual =
+      crc32(crc32(0, summary), std::string_view(footer).substr(0, footer_size - sizeof crc));
+  if (crc == 0 || crc != actual) return false;
+  try {
+    Head header;
+    if (!headAt(kMcapMagic.size(), header) || header.opcode != McapOpcode::kHeader) return false;
+    take(header, kMcapMagic.size() + kMcapRecordHead);
+    ByteReader records(summary);
+    while (!records.atEnd()) {
+      const auto opcode = static_cast<McapOpcode>(records.get<std::uint8_t>());
+      const std::string_view content = records.getRaw(records.get<std::uint64_t>());
+      if (opcode == McapOpcode::kSchema) takeSchema(content);
+      if (opcode == McapOpcode::kChannel) takeChannel(content);
+      if (opcode == McapOpcode::kChunkIndex) takeChunkIndex(content);
+      if (opcode == McapOpcode::kAttachmentIndex) takeAttachmentIndex(content);
+    }
+    complete_ = true;
+  } catch (const CutShort&) {
+    schemas_.clear(), channels_.clear(), attachments_.clear(), parts_.clear();
+  }
+  return complete_;
+}
+
+void McapReader::takeChunkIndex(std::string_view content) {
+  ByteReader in(content);
+  Part part;
+  part.start = static_cast<TimeNs>(in.get<std::uint64_t>());
+  part.end = static_cast<TimeNs>(in.get<std::uint64_t>());
+  const auto at = in.get<std::uint64_t>(), length = in.get<std::uint64_t>();
+  if (at > size_ || length > size_ - at || length < kMcapRecordHead) throw CutShort();
+  part.offset = at + kMcapRecordHead;
+  part.length = length - kMcapRecordHead;
+  ByteReader offsets(in.getText());
+  while (!offsets.atEnd()) {
+    part.channels.push_back(offsets.get<std::uint16_t>());
+    offsets.get<std::uint64_t>();
+  }
+  parts_.push_back(std::move(part));
+}
+
+void McapReader::takeAttachmentIndex(std::string_view content) {
+  ByteReader in(content);
+  const auto at = in.get<std::uint64_t>();
+  Head head;
+  if (!headAt(at, head) || head.opcode != McapOpcode::kAttachment) throw CutShort();
+  take(head, at + kMcapRecordHead);
+}
+
+void McapReader::takePart(const Head& head, std::uint64_t offset) {
+  Part part{offset, head.length, head.opcode, 0, std::numeric_limits<TimeNs>::max(), {}};
+  if (head.opcode == McapOpcode::kChunk && head.length >= 2 * sizeof(std::uint64_t)) {
+    const std::string times = bytesAt(offset, 2 * sizeof(std::uint64_t));
+    ByteReader in(times);
+    part.start = static_cast<TimeNs>(in.get<std::uint64_t>());
+    part.end = static_cast<TimeNs>(in.get<std::uint64_t>());
+  }
+  parts_.push_back(std::move(part));
+}
+
 void McapReader::take(const Head& head, std::uint64_t offset) {
   if (head.opcode == McapOpcode::kChunk || head.opcode == McapOpcode::kMessage) {
-    if (!data_ended_) parts_.push_back({offset, head.length, head.opcode});
+    if (!data_ended_) takePart(head, offset);
+    return;
+  }
+  if (head.opcode == McapOpcode::kMessageIndex && !data_ended_ && !parts_.empty() && head.length >= 2) {
+    const std::string channel = bytesAt(offset, 2);
+    parts_.back().channels.push_back(ByteReader(channel).get<std::uint16_t>());
     return;
   }
   if (head.opcode == McapOpcode::kDataEnd) data_ended_ = true;
@@ -170,23 +252,66 @@ void McapReader::takeAttachment(std::string_view content) {
   attachments_.push_back(std::move(attachment));
 }
 
+TimeNs McapReader::firstTime() const {
+  TimeNs first = std::numeric_limits<TimeNs>::max();
+  for (const Part& part : parts_) first = std::min(first, part.start);
+  return parts_.empty() ? 0 : first;
+}
+
+TimeNs McapReader::lastTime() const {
+  TimeNs last = 0;
+  for (const Part& part : parts_)
+    if (part.end != std::numeric_limits<TimeNs>::max()) last = std::max(last, part.end);
+  return last;
+}
+
 McapReader::Reading McapReader::read(const std::function<void(const McapMessage&)>& show) {
+  return read(Selection{}, show);
+}
+
+bool McapReader::mayHold(const Part& part, const Selection& selection) {
+  const bool dated = part.start >= 0 && part.start <= part.end;  // unless its head is damaged
+  if (dated && (part.end < selection.from || part.start > selection.to)) return false;
+  // Of a chunk that was cut off from its index nobody knows what it holds.
+  return selection.channels.empty() || part.channels.empty() ||
+         std::any_of(part.channels.begin(), part.channels.end(),
+                     [&](std::uint16_t channel) { return selection.channels.contains(channel); });
+}
+
+McapReader::Reading McapReader::read(const Selection& selection,
+                                     const std::function<void(const McapMessage&)>& show) {
   Reading reading;
-  for (const Part& part : parts_) {
-    ++reading.chunks;
-    if (!readChunk(part, reading, show)) ++reading.damaged_chunks;
+  for (std::size_t chunk = 0; chunk < parts_.size(); ++chunk) {
+    if (!mayHold(chunk, selection)) continue;
+    const Reading one = readChunk(chunk, selection, show);
+    reading.chunks += one.chunks;
+    reading.messages += one.messages;
+    reading.damaged_chunks += one.damaged_chunks;
   }
   return reading;
 }
 
-bool McapReader::readChunk(const Part& part, Reading& reading,
-                           const std::function<void(const McapMessage&)>& show) {
+McapReader::Reading McapReader::readChunk(std::size_t chunk, const Selection& selection,
+                                          const std::function<void(const McapMessage&)>& show) {
+  Reading reading;
+  const auto show_selected = [&](const McapMessage& message) {
+    if (message.log_time < selection.from || message.log_time > selection.to) return;
+    if (!selection.channels.empty() && !selection.channels.contains(message.channel)) return;
+    ++reading.messages;
+    show(message);
+  };
+  ++reading.chunks;
+  reading.damaged_chunks += !readChunk(parts_[chunk], show_selected);
+  return reading;
+}
+
+bool McapReader::readChunk(const Part& part, const std::function<void(const McapMessage&)>& show) {
   std::string plain;
   try {
     if (part.length > kLargestChunk) return false;
     const std::string content = bytesAt(part.offset, part.length);
     if (part.opcode == McapOpcode::kMessage) {
-      readRecords(bytesAt(part.offset - kMcapRecordHead, part.length + kMcapRecordHead), reading, show);
+      readRecords(bytesAt(part.offset - kMcapRecordHead, part.length + kMcapRecordHead), show);
       return true;
     }
     ByteReader in(content);
@@ -209,15 +334,14 @@ bool McapReader::readChunk(const Part& part, Reading& reading,
       return false;
     }
     if (plain.size() != size || (crc != 0 && crc != crc32(0, plain))) return false;
-    readRecords(plain, reading, show);
+    readRecords(plain, show);
     return true;
   } catch (const CutShort&) {
     return false;
   }
 }
 
-void McapReader::readRecords(std::string_view records, Reading& reading,
-                             const std::function<void(const McapMessage&)>& show) {
+void McapReader::readRecords(std::string_view records, const std::function<void(const McapMessage&)>& show) {
   ByteReader in(records);
   while (!in.atEnd()) {
     const auto opcode = static_cast<McapOpcode>(in.get<std::uint8_t>());
@@ -232,9 +356,18 @@ void McapReader::readRecords(std::string_view records, Reading& reading,
     shown.log_time = static_cast<TimeNs>(message.get<std::uint64_t>());
     shown.publish_time = static_cast<TimeNs>(message.get<std::uint64_t>());
     shown.payload = message.rest();
-    ++reading.messages;
     show(shown);
   }
+}
+
+McapReader::Selection withoutImages(const McapReader& session) {
+  McapReader::Selection selection;
+  for (const auto& [id, channel] : session.channels()) {
+    const auto schema = session.schemas().find(channel.schema);
+    if (schema == session.schemas().end() || !isImageMessage(schema->second.name))
+      selection.channels.insert(id);
+  }
+  return selection;
 }
 
 }  // namespace helical

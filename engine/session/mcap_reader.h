@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +27,13 @@ struct McapMessage {
 /// zstd. One thread.
 class McapReader {
  public:
-  /// Finds the file's records. Throws Error(kInput) when it cannot be read or is no MCAP file at all.
-  explicit McapReader(std::filesystem::path file);
+  enum class Open {
+    kByIndex,  ///< believes a sound summary: at once, however long the file
+    kByScan,   ///< looks at every record
+  };
+  /// Finds the file's records; one without a sound summary is always scanned. Throws Error(kInput) when it
+  /// cannot be read or is no MCAP file at all.
+  explicit McapReader(std::filesystem::path file, Open open = Open::kByIndex);
   ~McapReader();
   McapReader(const McapReader&) = delete;
   McapReader& operator=(const McapReader&) = delete;
@@ -38,10 +45,14 @@ class McapReader {
   const std::map<std::uint16_t, McapChannel>& channels() const { return channels_; }
   const std::vector<McapAttachment>& attachments() const { return attachments_; }
 
-  /// Whether the file was closed properly and every record of it stands where it should. Chunks' contents are
-  /// checked when they are read.
+  /// Whether the file was closed properly and, as far as was looked, every record of it stands where it
+  /// should. Chunks' contents are checked when they are read.
   bool complete() const { return complete_; }
+  /// Places from which the scan had to jump to the next chunk that it knew.
+  std::uint64_t gaps() const { return gaps_; }
   std::size_t chunkCount() const { return parts_.size(); }
+  TimeNs firstTime() const;  ///< of the messages; 0 without any
+  TimeNs lastTime() const;
 
   struct Reading {
     std::uint64_t messages = 0;
@@ -52,16 +63,41 @@ class McapReader {
   /// that we do not read.
   Reading read(const std::function<void(const McapMessage&)>& show);
 
+  /// What to show: messages of these channels (all when empty) logged in this span. Chunks without any are
+  /// not even read.
+  struct Selection {
+    std::set<std::uint16_t> channels;
+    TimeNs from = 0;
+    TimeNs to = std::numeric_limits<TimeNs>::max();
+  };
+  Reading read(const Selection& selection, const std::function<void(const McapMessage&)>& show);
+
+  /// Chunk by chunk, for who goes back and forth: `mayHold` is known without reading it.
+  bool mayHold(std::size_t chunk, const Selection& selection) const {
+    return mayHold(parts_[chunk], selection);
+  }
+  TimeNs chunkStart(std::size_t chunk) const { return parts_[chunk].start; }
+  TimeNs chunkEnd(std::size_t chunk) const { return parts_[chunk].end; }
+  Reading readChunk(std::size_t chunk, const Selection& selection,
+                    const std::function<void(const McapMessage&)>& show);
+
  private:
   struct Part {
     std::uint64_t offset = 0;  ///< of the content
     std::uint64_t length = 0;
     McapOpcode opcode = McapOpcode::kChunk;
+    TimeNs start = 0, end = 0;            ///< of the messages inside
+    std::vector<std::uint16_t> channels;  ///< inside, as far as its index tells
   };
   struct Head {
     McapOpcode opcode = McapOpcode::kHeader;
     std::uint64_t length = 0;
   };
+  static bool mayHold(const Part& part, const Selection& selection);
+  bool takeSummary();
+  void takeChunkIndex(std::string_view content);
+  void takeAttachmentIndex(std::string_view content);
+  void takePart(const Head& head, std::uint64_t offset);
   std::string bytesAt(std::uint64_t offset, std::uint64_t length) const;
   bool headAt(std::uint64_t offset, Head& head) const;
   void scan();
@@ -70,20 +106,23 @@ class McapReader {
   void takeSchema(std::string_view content);
   void takeChannel(std::string_view content);
   void takeAttachment(std::string_view content);
-  bool readChunk(const Part& part, Reading& reading, const std::function<void(const McapMessage&)>& show);
-  void readRecords(std::string_view records, Reading& reading,
-                   const std::function<void(const McapMessage&)>& show);
+  bool readChunk(const Part& part, const std::function<void(const McapMessage&)>& show);
+  void readRecords(std::string_view records, const std::function<void(const McapMessage&)>& show);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
   bool complete_ = false;
   bool data_ended_ = false;
+  std::uint64_t gaps_ = 0;
   std::string profile_, library_;
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
   std::vector<McapAttachment> attachments_;
   std::vector<Part> parts_;
 };
+
+/// All streams but those of images.
+McapReader::Selection withoutImages(const McapReader& session);
 
 }  // namespace helical

@@ -5,11 +5,10 @@
 #include "engine/base/error.h"
 #include "engine/session/mcap_reader.h"
 #include "engine/session/mcap_writer.h"
+#include "engine/session/message_types.h"
 
 namespace helical {
 namespace {
-
-constexpr std::size_t kChunkSize = 256u << 10;
 
 /// Copies what a reader finds, schemas and channels when the first message needs them.
 class Copy {
@@ -24,7 +23,6 @@ class Copy {
     if (channel == 0) return;  // its channel is lost: nobody could read it
     to_.addMessage(channel, message.log_time, message.publish_time, message.payload);
     ++messages_;
-    if (to_.chunkSize() >= kChunkSize) to_.flush();
   }
   std::uint64_t messages() const { return messages_; }
 
@@ -39,7 +37,10 @@ class Copy {
       schema = schemaOf(channel->second.schema);
       if (schema == 0) return 0;
     }
-    return channels_[id] = to_.addChannel(schema, channel->second.topic, channel->second.encoding);
+    const auto named = from_.schemas().find(channel->second.schema);
+    const std::string name = named == from_.schemas().end() ? "" : named->second.name;
+    return channels_[id] =
+               to_.addChannel(schema, channel->second.topic, channel->second.encoding, weightOf(name));
   }
   std::uint16_t schemaOf(std::uint16_t id) {
     const auto copied = schemas_.find(id);
@@ -56,10 +57,24 @@ class Copy {
   std::uint64_t messages_ = 0;
 };
 
+/// A second name for the damaged file, one that is free.
+std::filesystem::path keepOriginal(const std::filesystem::path& file) {
+  std::filesystem::path kept = file;
+  kept += ".damaged";
+  for (int i = 2; std::filesystem::exists(kept); ++i) {
+    kept = file;
+    kept += ".damaged" + std::to_string(i);
+  }
+  std::error_code no_links_here;
+  std::filesystem::create_hard_link(file, kept, no_links_here);
+  if (no_links_here) std::filesystem::copy_file(file, kept);
+  return kept;
+}
+
 }  // namespace
 
 Recovery recoverMcap(const std::filesystem::path& file) {
-  McapReader reader(file);
+  McapReader reader(file, McapReader::Open::kByScan);
   Recovery recovery;
   const auto count = reader.read([](const McapMessage&) {});
   recovery.damaged_chunks = count.damaged_chunks;
@@ -77,6 +92,7 @@ Recovery recoverMcap(const std::filesystem::path& file) {
     reader.read([&](const McapMessage& message) { copy.add(message); });
     writer.close();
     recovery.messages = copy.messages();
+    if (recovery.damaged_chunks > 0 || reader.gaps() > 0) recovery.original = keepOriginal(file);
     std::filesystem::rename(mended, file);
   } catch (const std::filesystem::filesystem_error& failure) {
     std::filesystem::remove(mended);

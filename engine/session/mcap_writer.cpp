@@ -1,6 +1,9 @@
 #include "engine/session/mcap_writer.h"
 
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 #include <zstd.h>
 
@@ -15,6 +18,7 @@ namespace helical {
 namespace {
 
 constexpr int kCompressionLevel = 1;
+constexpr std::size_t kChunkSize = 256u << 10;
 constexpr const char* kCure = "choose a folder that can be written to, on a disk with space";
 
 std::string record(McapOpcode opcode, std::string_view content) {
@@ -34,6 +38,31 @@ std::string compress(const std::string& bytes) {
   return out;
 }
 
+/// A file over the process's limit, or a pipe that nobody reads any more, is an error to be told and no
+/// reason to end the flight: while this lives, they do not signal this thread.
+class QuietWrites {
+ public:
+  QuietWrites() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGXFSZ);
+    sigaddset(&signals_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~QuietWrites() {
+    const timespec at_once{};
+    const int code = errno;
+    while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
+    }
+    errno = code;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  QuietWrites(const QuietWrites&) = delete;
+  QuietWrites& operator=(const QuietWrites&) = delete;
+
+ private:
+  sigset_t signals_{}, before_{};
+};
+
 }  // namespace
 
 McapWriter::McapWriter(std::filesystem::path file, const std::string& library) : file_(std::move(file)) {
@@ -41,6 +70,8 @@ McapWriter::McapWriter(std::filesystem::path file, const std::string& library) :
   if (descriptor_ < 0)
     throw Error(ErrorKind::kInput, std::string("the session cannot be recorded: ") + std::strerror(errno),
                 file_.string(), kCure);
+  // Whoever looks for sessions that were cut off sees that this one is being written.
+  static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
   ByteWriter header;
   header.putText("ros2");
   header.putText(library);
@@ -70,9 +101,9 @@ std::uint16_t McapWriter::addSchema(const std::string& name, const std::string& 
 }
 
 std::uint16_t McapWriter::addChannel(std::uint16_t schema, const std::string& topic,
-                                     const std::string& encoding) {
+                                     const std::string& encoding, Weight weight) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
-  channels_[id] = {};
+  channels_[id].weight = weight;
   ByteWriter metadata;
   metadata.putText("offered_qos_profiles");  // rosbag2 asks for it
   metadata.putText("");
@@ -115,39 +146,65 @@ void McapWriter::addMessage(std::uint16_t channel, TimeNs log_time, TimeNs publi
                             std::string_view payload) {
   const auto logged = static_cast<std::uint64_t>(std::max<TimeNs>(0, log_time));
   Channel& to = channels_.at(channel);
-  to.index.emplace_back(logged, chunk_.size());
-  chunk_.put(static_cast<std::uint8_t>(McapOpcode::kMessage));
-  chunk_.put(static_cast<std::uint64_t>(2 + 4 + 8 + 8 + payload.size()));
-  chunk_.put(channel);
-  chunk_.put(static_cast<std::uint32_t>(to.messages++));
-  chunk_.put(logged);
-  chunk_.put(static_cast<std::uint64_t>(std::max<TimeNs>(0, publish_time)));
-  chunk_.putRaw(payload);
-  chunk_start_ = chunk_empty_ ? logged : std::min(chunk_start_, logged);
-  chunk_end_ = chunk_empty_ ? logged : std::max(chunk_end_, logged);
-  chunk_empty_ = false;
+  Chunk& chunk = open_[static_cast<std::size_t>(to.weight)];
+  const bool first = chunk.records.size() == 0;
+  to.index.emplace_back(logged, chunk.records.size());
+  chunk.records.put(static_cast<std::uint8_t>(McapOpcode::kMessage));
+  chunk.records.put(static_cast<std::uint64_t>(2 + 4 + 8 + 8 + payload.size()));
+  chunk.records.put(channel);
+  chunk.records.put(static_cast<std::uint32_t>(to.messages++));
+  chunk.records.put(logged);
+  chunk.records.put(static_cast<std::uint64_t>(std::max<TimeNs>(0, publish_time)));
+  chunk.records.putRaw(payload);
+  chunk.start = first ? logged : std::min(chunk.start, logged);
+  chunk.end = first ? logged : std::max(chunk.end, logged);
   first_ = messages_ == 0 ? logged : std::min(first_, logged);
   last_ = std::max(last_, logged);
   ++messages_;
+  if (chunk.records.size() >= kChunkSize) flush(to.weight);
 }
 
 void McapWriter::flush() {
-  if (chunk_empty_) return;
-  const std::string compressed = compress(chunk_.bytes());
+  flush(Weight::kLight);
+  flush(Weight::kBulky);
+  flush(Weight::kRare);
+}
+
+void McapWriter::flush(Weight weight) {
+  Chunk& chunk = open_[static_cast<std::size_t>(weight)];
+  if (chunk.records.size() == 0) return;
+  const std::string compressed = compress(chunk.records.bytes());
   ByteWriter content;
-  content.put(chunk_start_);
-  content.put(chunk_end_);
-  content.put(static_cast<std::uint64_t>(chunk_.size()));
-  content.put(crc32(0, chunk_.bytes()));
+  content.put(chunk.start);
+  content.put(chunk.end);
+  content.put(static_cast<std::uint64_t>(chunk.records.size()));
+  content.put(crc32(0, chunk.records.bytes()));
   content.putText("zstd");
   content.put(static_cast<std::uint64_t>(compressed.size()));
   content.putRaw(compressed);
-  const std::string chunk = record(McapOpcode::kChunk, content.bytes());
-
-  std::string indexes;
+  const std::string whole = record(McapOpcode::kChunk, content.bytes());
   ByteWriter offsets;
+  const std::string indexes = takeIndexes(weight, written_ + whole.size(), offsets);
+  ByteWriter index;
+  index.put(chunk.start);
+  index.put(chunk.end);
+  index.put(written_);
+  index.put(static_cast<std::uint64_t>(whole.size()));
+  index.putText(offsets.bytes());
+  index.put(static_cast<std::uint64_t>(indexes.size()));
+  index.putText("zstd");
+  index.put(static_cast<std::uint64_t>(compressed.size()));
+  index.put(static_cast<std::uint64_t>(chunk.records.size()));
+  write(whole + indexes);
+  chunk_indexes_ += record(McapOpcode::kChunkIndex, index.bytes());
+  ++chunks_;
+  chunk.records.clear();
+}
+
+std::string McapWriter::takeIndexes(Weight weight, std::uint64_t chunk_end, ByteWriter& offsets) {
+  std::string indexes;
   for (auto& [id, channel] : channels_) {
-    if (channel.index.empty()) continue;
+    if (channel.weight != weight || channel.index.empty()) continue;
     ByteWriter entries;
     for (const auto& [time, offset] : channel.index) {
       entries.put(time);
@@ -157,25 +214,11 @@ void McapWriter::flush() {
     index.put(id);
     index.putText(entries.bytes());
     offsets.put(id);
-    offsets.put(written_ + chunk.size() + indexes.size());
+    offsets.put(chunk_end + indexes.size());
     indexes += record(McapOpcode::kMessageIndex, index.bytes());
     channel.index.clear();
   }
-  ByteWriter index;
-  index.put(chunk_start_);
-  index.put(chunk_end_);
-  index.put(written_);
-  index.put(static_cast<std::uint64_t>(chunk.size()));
-  index.putText(offsets.bytes());
-  index.put(static_cast<std::uint64_t>(indexes.size()));
-  index.putText("zstd");
-  index.put(static_cast<std::uint64_t>(compressed.size()));
-  index.put(static_cast<std::uint64_t>(chunk_.size()));
-  write(chunk + indexes);
-  chunk_indexes_ += record(McapOpcode::kChunkIndex, index.bytes());
-  ++chunks_;
-  chunk_.clear();
-  chunk_empty_ = true;
+  return indexes;
 }
 
 void McapWriter::sync() {
@@ -244,6 +287,7 @@ void McapWriter::close() {
 }
 
 void McapWriter::write(std::string_view bytes) {
+  const QuietWrites quiet;
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);

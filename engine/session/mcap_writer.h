@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -29,14 +30,17 @@ class McapWriter {
   /// Before the first message.
   std::uint16_t addSchema(const std::string& name, const std::string& encoding,
                           const std::string& definition);
-  std::uint16_t addChannel(std::uint16_t schema, const std::string& topic, const std::string& encoding);
+  /// Each has chunks of its own, so that a reader of one passes over the others: images, and what is rare and
+  /// sought over the whole file.
+  enum class Weight { kLight, kBulky, kRare };
+  std::uint16_t addChannel(std::uint16_t schema, const std::string& topic, const std::string& encoding,
+                           Weight weight = Weight::kLight);
   void addAttachment(const McapAttachment& attachment);
 
-  /// Into the chunk in memory.
+  /// Into the chunk in memory, which goes to the file when it has 256 KB.
   void addMessage(std::uint16_t channel, TimeNs log_time, TimeNs publish_time, std::string_view payload);
-  std::size_t chunkSize() const { return chunk_.size(); }
 
-  /// The chunk in memory goes to the file.
+  /// What is in memory goes to the file.
   void flush();
   /// What was flushed goes to the disk.
   void sync();
@@ -45,11 +49,18 @@ class McapWriter {
 
  private:
   struct Channel {
+    Weight weight = Weight::kLight;
     std::uint64_t messages = 0;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> index;  ///< log time, offset in the chunk
   };
+  struct Chunk {
+    ByteWriter records;
+    std::uint64_t start = 0, end = 0;
+  };
   void write(std::string_view bytes);
-  void beginChunk();
+  void flush(Weight weight);
+  /// The chunk's message indexes; `offsets`: where they begin in the file, by channel, when they follow it.
+  std::string takeIndexes(Weight weight, std::uint64_t chunk_end, ByteWriter& offsets);
   std::string summary(std::uint64_t start) const;
   std::string statistics() const;
   [[noreturn]] void refuse(const std::string& what, int code) const;
@@ -59,10 +70,7 @@ class McapWriter {
   std::uint64_t written_ = 0;
   std::uint32_t data_crc_ = 0;
 
-  ByteWriter chunk_;
-  std::uint64_t chunk_start_ = 0, chunk_end_ = 0;
-  bool chunk_empty_ = true;
-
+  std::array<Chunk, 3> open_;  ///< by weight
   std::map<std::uint16_t, Channel> channels_;
   std::uint64_t messages_ = 0, first_ = 0, last_ = 0;
   std::uint16_t schemas_ = 0;

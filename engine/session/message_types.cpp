@@ -38,6 +38,16 @@ constexpr Definition kDefinitions[] = {
      "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\n"
      "float64[9] k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\nuint32 binning_y\n"
      "sensor_msgs/RegionOfInterest roi\n"},
+    {"sensor_msgs/Image",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\n"
+     "uint32 step\nuint8[] data\n"},
+    {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
+    {"sensor_msgs/PointField",
+     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
+     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
+    {"sensor_msgs/PointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
     {"rcl_interfaces/Log",
      "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"
      "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\nstring function\n"
@@ -54,6 +64,17 @@ constexpr Definition kDefinitions[] = {
      "uint64 order            # of what reached the flight thread\n"
      "int64 used_ns\nuint64 sequence\nint64 exposure_ns\nint64 arrival_ns\nint64 extraction_ns\n"
      "bool truncated\nhelical_msgs/Centroid[] centroids\n"},
+    {"helical_msgs/MarkerTrack",
+     "bool observed           # a centroid was named after it\n"
+     "bool agrees             # and lay where it was predicted\n"
+     "bool selected           # and was used for the pose\n"
+     "bool predicted          # the last two are valid\n"
+     "float64 u_px\nfloat64 v_px\nfloat64 reprojected_u_px\nfloat64 reprojected_v_px\n"},
+    {"helical_msgs/CameraTrack",
+     "std_msgs/Header header  # mid-exposure\n"
+     "int32 predicted_count   # balls that should be in the image\n"
+     "int32 agreeing_count\nint32 selected_count\nfloat64 residual_px\n"
+     "helical_msgs/MarkerTrack[] markers\n"},
     {"helical_msgs/StickDemand",
      "std_msgs/Header header\nfloat64 upper_rotor\nfloat64 lower_rotor\nfloat64 roll\nfloat64 pitch\n"},
     {"helical_msgs/FlightState",
@@ -64,7 +85,10 @@ constexpr Definition kDefinitions[] = {
      "uint32 failsafes        # bits\n"
      "bool pose_known\nint64 pose_age_ns\nbool hovering\nfloat64 flight_time_s\nfloat64 pad_height_m\n"
      "int64 server_p50_ns\nint64 server_p99_ns\nint64 frame_to_command_p50_ns\n"
-     "int64 frame_to_command_p99_ns\nbool gust_ordered\n"
+     "int64 frame_to_command_p99_ns\nfloat64 tick_rate_hz\n"
+     "string obstacle         # why it could not take off now\n"
+     "string refusal          # why a take-off order was given up, at that tick\n"
+     "bool gust_ordered\n"
      "bool has_truth          # the others are valid; simulated flights\n"
      "bool crashed\nstring crash_reason\nfloat64 crash_time_s\nbool has_flown\nbool at_rest\n"
      "float64 hardest_touch_m_s\n"},
@@ -72,7 +96,10 @@ constexpr Definition kDefinitions[] = {
      "std_msgs/Header header\nuint8 status\nstring status_name\nbool hidden\n"
      "string calibration_method  # empty: the pose was given\n"
      "float64 effective_sample_size\nint32 boards\nuint32 knocks\nuint64 frames\nuint64 dropped\n"
-     "float64 rate_hz\nint64 latency_ns\nint64 extraction_p50_ns\nint64 extraction_p99_ns\n"},
+     "float64 rate_hz\nint64 latency_ns\nint64 extraction_p50_ns\nint64 extraction_p99_ns\n"
+     "int32 centroids\nint32 knocks_found\n"
+     "bool bound_known        # the Cramer-Rao bound of its calibration is valid\n"
+     "float64 bound_position_m\nfloat64 bound_orientation_rad\n"},
     {"helical_msgs/OperatorOrder",
      "std_msgs/Header header\n"
      "uint64 order            # of what reached the flight thread\n"
@@ -88,7 +115,9 @@ constexpr std::string_view kNames[kMessageKinds] = {
     "sensor_msgs/CameraInfo",     "rcl_interfaces/Log",
     "helical_msgs/Observation",   "helical_msgs/StickDemand",
     "helical_msgs/FlightState",   "helical_msgs/CameraState",
-    "helical_msgs/OperatorOrder"};
+    "helical_msgs/OperatorOrder", "helical_msgs/CameraTrack",
+    "sensor_msgs/PointCloud2",    "sensor_msgs/Image",
+    "sensor_msgs/CompressedImage"};
 
 const Definition* definitionOf(std::string_view name) {
   const auto* found = std::find_if(std::begin(kDefinitions), std::end(kDefinitions),
@@ -112,6 +141,15 @@ void collect(const Definition& definition, std::vector<const Definition*>& all) 
 std::string messageName(MessageKind kind) {
   std::string name(kNames[static_cast<std::size_t>(kind)]);
   return name.insert(name.find('/') + 1, "msg/");
+}
+
+bool isImageMessage(std::string_view name) {
+  return name == messageName(MessageKind::kImage) || name == messageName(MessageKind::kCompressedImage);
+}
+
+McapWriter::Weight weightOf(std::string_view name) {
+  if (isImageMessage(name)) return McapWriter::Weight::kBulky;
+  return name == messageName(MessageKind::kLog) ? McapWriter::Weight::kRare : McapWriter::Weight::kLight;
 }
 
 std::string messageDefinition(MessageKind kind) {

@@ -10,8 +10,9 @@ struct Rule {
   std::string_view unit;
 };
 
-constexpr Rule kSuffixes[] = {{"_px2", "px^2"}, {"_m_s", "m/s"}, {"_px", "px"}, {"_ns", "ns"},
-                              {"_hz", "Hz"},    {"_s", "s"},     {"_m", "m"},   {"stamp", "s"}};
+constexpr Rule kSuffixes[] = {{"_px2", "px^2"}, {"_m_s", "m/s"}, {"_px", "px"},
+                              {"_ns", "ns"},    {"_hz", "Hz"},   {"_s", "s"},
+                              {"_m", "m"},      {"_rad", "rad"}, {"stamp", "s"}};
 
 constexpr Rule kInside[] = {
     {"position.", "m"}, {"translation.", "m"}, {"linear.", "m/s"}, {"angular.", "rad/s"}};

@@ -1,33 +1,44 @@
 #include "engine/session/recorder.h"
 
-#include <pthread.h>
-#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
 
-#include "engine/base/clock.h"
-#include "engine/base/error.h"
+#include "engine/base/log.h"
 
 namespace helical {
 namespace {
 
-constexpr std::size_t kChunkSize = 256u << 10;
-constexpr TimeNs kChunkTime = 200 * kNanosecondsPerMillisecond;  // 250 with the time that writing takes
+constexpr TimeNs kChunkTime = 150 * kNanosecondsPerMillisecond;  // 250 with the time that writing takes
 constexpr auto kPause = std::chrono::milliseconds(5);
 constexpr auto kShortPause = std::chrono::microseconds(100);
+constexpr int kNiceness = 10;
 
-/// A file that grows over the process's limit is an error to be told, no reason to end the flight.
-void outliveFileSizeLimit() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGXFSZ);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+/// Packing images is work, and the threads that fly come first on a machine with few cores. On Linux this is
+/// the calling thread's alone.
+void stepBack() {
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
 }
 
 }  // namespace
 
-Recorder::Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full)
-    : writer_(file, settings), when_full_(when_full), thread_([this] { run(); }) {}
+Recorder::Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full,
+                   WhenRefused when_refused)
+    : when_full_(when_full) {
+  const auto open = [&] { writer_ = std::make_unique<SessionWriter>(file, settings); };
+  if (when_refused == WhenRefused::kThrow)
+    open();
+  else
+    attempt(open);
+  for (std::size_t i = 0; i < settings.rig.cameras.size(); ++i) {
+    const CameraModel& model = settings.rig.cameras[i].model;
+    const ImageRecording recording = i < settings.images.size() ? settings.images[i] : ImageRecording{};
+    has_images_ = has_images_ || recording.quality != ImageQuality::kOff;
+    frames_.push_back(std::make_unique<FrameQueue>(recording, model.width(), model.height()));
+  }
+  thread_ = std::thread([this] { run(); });
+}
 
 Recorder::~Recorder() {
   finish();
@@ -62,6 +73,28 @@ void Recorder::onEvent(const EngineEvent& event) {
   push();
 }
 
+void Recorder::onBelief(CameraId camera, const CalibrationView& belief, TimeNs now) {
+  if (belief.count == 0) return;
+  next_.what = CameraBelief{camera, now, belief};
+  push();
+}
+
+RecordHealth Recorder::health() const {
+  return {!failed(), failed(), lost(), lostImages()};
+}
+
+void Recorder::onFrame(const Frame& frame, const Observation&) {
+  FrameQueue& queue = *frames_[static_cast<std::size_t>(frame.camera.index())];
+  if (!queue.wants(frame)) return;
+  while (!queue.push(frame)) {
+    if (when_full_ == WhenFull::kDrop) {
+      lost_images_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    std::this_thread::sleep_for(kShortPause);
+  }
+}
+
 void Recorder::push() {
   while (!queue_->push(next_)) {
     if (when_full_ == WhenFull::kDrop) {
@@ -85,37 +118,52 @@ void Recorder::attempt(const std::function<void()>& step) {
   } catch (const std::exception& error) {
     failure_ = error.what();
     failed_.store(true, std::memory_order_release);
+    log(LogLevel::kError, "the record of the flight is cut off: " + failure_);
   }
 }
 
+bool Recorder::writeItems(TimeNs until) {
+  bool any = false;
+  while (queue_->pop(*item_)) {
+    any = true;
+    attempt([&] { writer_->add(*item_); });
+    if (clock_.now() >= until) break;
+  }
+  return any;
+}
+
+/// One of each camera: none waits for another one's, and what the flight did never waits long.
+bool Recorder::writeFrames() {
+  bool any = false;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const RecordedFrame* frame = frames_[i]->front();
+    if (frame == nullptr) continue;
+    any = true;
+    attempt([&] { writer_->addFrame(cameraId(static_cast<int>(i)), *frame); });
+    frames_[i]->pop();
+  }
+  return any;
+}
+
 void Recorder::run() {
-  outliveFileSizeLimit();
-  const MonotonicClock clock;
-  const auto item = std::make_unique<FlightItem>();
-  TimeNs synced = clock.now();
+  if (has_images_) stepBack();
+  TimeNs synced = clock_.now();
   for (bool last = false; !last;) {
-    last = ended_.load(std::memory_order_acquire);  // before the queue is emptied: nothing comes after
-    bool idle = true;
-    while (queue_->pop(*item)) {
-      idle = false;
+    last = ended_.load(std::memory_order_acquire);  // before the queues are emptied: nothing comes after
+    const bool items = writeItems(synced + kChunkTime);
+    const bool busy = writeFrames() || items;
+    if (clock_.now() - synced >= kChunkTime) {
       attempt([&] {
-        writer_.add(*item);
-        if (writer_.chunkSize() >= kChunkSize) writer_.flush();
+        writer_->flush();
+        writer_->sync();
       });
-      if (clock.now() - synced >= kChunkTime) break;
-    }
-    if (clock.now() - synced >= kChunkTime) {
-      attempt([&] {
-        writer_.flush();
-        writer_.sync();
-      });
-      synced = clock.now();
-      last = false;
-    } else if (idle && !last) {
+      synced = clock_.now();
+    } else if (!busy && !last) {
       std::this_thread::sleep_for(kPause);
     }
+    last = last && !busy;
   }
-  attempt([&] { writer_.close(); });
+  attempt([&] { writer_->close(); });
 }
 
 }  // namespace helical

@@ -6,10 +6,13 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "engine/base/clock.h"
 #include "engine/base/spsc_queue.h"
 #include "engine/pipeline/flight_tap.h"
 #include "engine/session/flight_item.h"
+#include "engine/session/frame_queue.h"
 #include "engine/session/session_writer.h"
 
 namespace helical {
@@ -24,8 +27,14 @@ class Recorder final : public FlightTap {
     kWait,  ///< in lock step: simulated time waits for the disk
   };
 
-  /// Opens the file. Throws Error when that fails.
-  Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full);
+  enum class WhenRefused {
+    kThrow,
+    kFlyOn,  ///< as if the disk had refused later: the record has failed from the begin
+  };
+
+  /// Opens the file. Throws Error when that fails, unless told otherwise.
+  Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full,
+           WhenRefused when_refused = WhenRefused::kThrow);
   ~Recorder() override;  ///< finishes
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -36,12 +45,18 @@ class Recorder final : public FlightTap {
   void onHidden(CameraId camera, bool hidden, TimeNs now) override;
   void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) override;
   void onEvent(const EngineEvent& event) override;
+  void onBelief(CameraId camera, const CalibrationView& belief, TimeNs now) override;
+  RecordHealth health() const override;
+
+  // The camera's capture thread.
+  void onFrame(const Frame& frame, const Observation& observation) override;
 
   /// After the flight: writes what is left and closes the file.
   void finish();
 
   /// Any thread.
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  std::uint64_t lostImages() const { return lost_images_.load(std::memory_order_relaxed); }
   bool failed() const { return failed_.load(std::memory_order_acquire); }
   /// Why the record is cut off; once `failed`.
   const std::string& failure() const { return failure_; }
@@ -50,15 +65,21 @@ class Recorder final : public FlightTap {
   using Queue = SpscQueue<FlightItem, 1024>;
   void push();
   void run();
+  bool writeItems(TimeNs until);
+  bool writeFrames();
   void attempt(const std::function<void()>& step);
 
-  SessionWriter writer_;
+  std::unique_ptr<SessionWriter> writer_;
   WhenFull when_full_;
   std::unique_ptr<Queue> queue_ = std::make_unique<Queue>();
-  FlightItem next_;  ///< flight thread
-  std::atomic<std::uint64_t> lost_{0};
+  std::vector<std::unique_ptr<FrameQueue>> frames_;  ///< by camera
+  FlightItem next_;                                  ///< flight thread
+  bool has_images_ = false;
+  std::atomic<std::uint64_t> lost_{0}, lost_images_{0};
   std::atomic<bool> failed_{false};
-  std::string failure_;  ///< writing thread, before `failed_`
+  MonotonicClock clock_;
+  std::unique_ptr<FlightItem> item_ = std::make_unique<FlightItem>();  ///< writing thread
+  std::string failure_;                                                ///< writing thread, before `failed_`
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

@@ -46,7 +46,7 @@ class Player {
     else if (topic == kPoseTopic || topic == kSetPointTopic || topic == kSticksTopic)
       recorded_[topic] = message.payload;
     else if (topic == kFlightStateTopic)
-      tick(decodeFlightState(message.payload));
+      tick(decodeFlightState(message.payload, state_, words_));
   }
 
  private:
@@ -69,17 +69,18 @@ class Player {
     if (order.kind == "hide" || order.kind == "show") loop_.hideCamera(id, order.kind == "hide");
     const CameraConfig& camera = rig_.cameras[static_cast<std::size_t>(order.camera)];
     if (order.kind != "calibrate" || !camera.camera_from_world) return;
-    auto calibration =
-        std::make_unique<CameraCalibration>(order.method, camera.model, rig_.markers_in_body,
-                                            *camera.camera_from_world, order.seed, rig_.calibration);
+    const std::string& method = changes_.other_calibrator ? rig_.calibrator : order.method;
+    replay_.other_methods = replay_.other_methods || method != order.method;
+    auto calibration = std::make_unique<CameraCalibration>(
+        method, camera.model, rig_.markers_in_body, *camera.camera_from_world, order.seed, rig_.calibration);
     loop_.swapCalibration(id, calibration);
   }
 
   void tick(const DecodedTick& decoded) {
     countMissing(decoded.order);
-    loop_.onTick(decoded.time, decoded.commands);
+    loop_.onTick(state_.time, decoded.commands);
     EngineSnapshot now = loop_.snapshot();
-    addTruth(decoded, now);
+    addTruth(now);
     compare(now);
     ++replay_.ticks;
     replay_.score.add(now);
@@ -88,15 +89,15 @@ class Player {
     recorded_.clear();
   }
 
-  void addTruth(const DecodedTick& decoded, EngineSnapshot& now) {
-    now.gust_ordered = decoded.gust_ordered;
-    now.has_truth = decoded.has_truth;
-    if (!decoded.has_truth) return;
+  void addTruth(EngineSnapshot& now) {
+    now.gust_ordered = state_.gust_ordered;
+    now.has_truth = state_.has_truth;
+    if (!state_.has_truth) return;
     now.truth = truth_;
-    now.verdict = decoded.verdict;
-    if (decoded.verdict.crashed && !replay_.crash_reason)
-      replay_.crash_reason = std::make_shared<const std::string>(decoded.crash_reason);
-    if (replay_.crash_reason) now.verdict.reason = replay_.crash_reason->c_str();
+    now.verdict = state_.verdict;
+    if (state_.verdict.crashed && !replay_.crash_reason)
+      replay_.crash_reason = std::make_shared<const std::string>(state_.verdict.reason);
+    now.verdict.reason = replay_.crash_reason ? replay_.crash_reason->c_str() : "";
     for (const auto& [camera, pose] : true_cameras_) {
       now.cameras[camera].has_truth = true;
       now.cameras[camera].true_camera_from_world = pose;
@@ -139,6 +140,8 @@ class Player {
   std::map<std::string, std::string> recorded_;  ///< topic to payload, since the last tick
   std::map<std::size_t, RigidTransform> true_cameras_;
   HelicopterState truth_;
+  EngineSnapshot state_;  ///< as recorded, with the newest flight state
+  Words words_;
   std::uint64_t last_order_ = 0;
 };
 
@@ -149,7 +152,8 @@ Replay replaySession(McapReader& session, const SessionSettings& settings, const
   Replay replay;
   Player player(session, settings, changes, listener, replay);
   replay.damaged_chunks =
-      session.read([&](const McapMessage& message) { player.take(message); }).damaged_chunks;
+      session.read(withoutImages(session), [&](const McapMessage& message) { player.take(message); })
+          .damaged_chunks;
   if (replay.ticks == 0)
     throw Error(ErrorKind::kInput, "the session ends before the flight's first moment",
                 session.file().string(), "give a longer one");

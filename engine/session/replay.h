@@ -22,12 +22,14 @@ struct Replay {
   std::uint64_t damaged_chunks = 0;   ///< of the file
   std::uint64_t different_ticks = 0;  ///< that came out otherwise, in any bit of pose, set-point or sticks
   double first_difference_s = -1.0;   ///< negative: none
+  bool other_methods = false;         ///< where the operator began a calibration anew, another one was used
   RunningRms position_difference;     ///< of the pose from the recorded one [m]
 };
 
 /// What a replay changes.
 struct ReplayChanges {
   std::vector<Occlusion> occlusions;  ///< nothing is seen by these cameras in these times
+  bool other_calibrator = false;      ///< that of the settings, also where the operator began one anew
 };
 
 /// Runs a session's observations through the flight loop again, in the order in which they reached it, and

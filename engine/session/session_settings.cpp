@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "engine/base/error.h"
 #include "engine/config/plan_file.h"
@@ -15,6 +16,7 @@ using nlohmann::json;
 constexpr const char* kRigName = "rig.toml";
 constexpr const char* kPlanName = "plan.toml";
 constexpr const char* kSettingsName = "settings.json";
+constexpr int kFormat = 2;
 
 json poseJson(const std::optional<RigidTransform>& pose) {
   if (!pose) return nullptr;
@@ -90,6 +92,7 @@ void applySimulation(const json& value, RigConfig& rig) {
 
 void applySettings(const json& value, SessionSettings& settings) {
   RigConfig& rig = settings.rig;
+  if (value.at("format").get<int>() != kFormat) throw std::domain_error("another format");
   settings.realtime = value.at("realtime").get<bool>();
   settings.plan.land_at_s = value.at("land_at_s").get<double>();
   rig.tracker = value.at("tracker").get<std::string>();
@@ -120,7 +123,7 @@ const std::string& contentOf(const std::vector<McapAttachment>& attachments, con
 
 std::vector<McapAttachment> toAttachments(const SessionSettings& settings) {
   const RigConfig& rig = settings.rig;
-  const json value{{"format", 1},
+  const json value{{"format", kFormat},
                    {"realtime", settings.realtime},
                    {"land_at_s", settings.plan.land_at_s},
                    {"tracker", rig.tracker},
@@ -141,7 +144,7 @@ SessionSettings fromAttachments(const std::vector<McapAttachment>& attachments, 
   settings.plan = parsePlan(settings.plan_text, session + ":" + kPlanName);
   try {
     applySettings(json::parse(contentOf(attachments, kSettingsName, session)), settings);
-  } catch (const json::exception& failure) {
+  } catch (const std::exception& failure) {
     throw Error(ErrorKind::kInput, std::string("the session's settings do not make sense: ") + failure.what(),
                 session, "give a session that this version of `helical fly --session` wrote");
   }

@@ -5,6 +5,7 @@
 
 #include "engine/config/rig_config.h"
 #include "engine/flight/flight_plan.h"
+#include "engine/session/image_recording.h"
 #include "engine/session/mcap_format.h"
 
 namespace helical {
@@ -16,6 +17,7 @@ struct SessionSettings {
   RigConfig rig;          ///< what flew: the file and what the command line made of it
   FlightPlan plan;
   bool realtime = false;
+  std::vector<ImageRecording> images;  ///< of each camera; none when empty
 };
 
 /// As files in a session: `rig.toml`, `plan.toml`, and `settings.json` with what differed from them.

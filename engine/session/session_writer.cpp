@@ -41,22 +41,23 @@ SessionWriter::SessionWriter(const std::filesystem::path& file, const SessionSet
         mcap_.addSchema(messageName(static_cast<MessageKind>(kind)), "ros2msg",
                         messageDefinition(static_cast<MessageKind>(kind)));
   pose_ = channel(kPoseTopic, MessageKind::kPoseWithCovarianceStamped);
-  velocity_ = channel("/helicopter/velocity", MessageKind::kTwistStamped);
+  velocity_ = channel(kVelocityTopic, MessageKind::kTwistStamped);
   set_point_pose_ = channel(kSetPointTopic, MessageKind::kPoseStamped);
-  set_point_velocity_ = channel("/set_point/velocity", MessageKind::kTwistStamped);
+  set_point_velocity_ = channel(kSetPointVelocityTopic, MessageKind::kTwistStamped);
   sticks_ = channel(kSticksTopic, MessageKind::kStickDemand);
   flight_state_ = channel(kFlightStateTopic, MessageKind::kFlightState);
   orders_ = channel(kOrdersTopic, MessageKind::kOperatorOrder);
-  events_ = channel("/events", MessageKind::kLog);
+  events_ = channel(kEventsTopic, MessageKind::kLog);
   transforms_ = channel("/tf", MessageKind::kTransforms);
   true_pose_ = channel(kTruePoseTopic, MessageKind::kPoseStamped);
-  true_velocity_ = channel("/truth/velocity", MessageKind::kTwistStamped);
-  addCameras(settings.rig);
+  true_velocity_ = channel(kTrueVelocityTopic, MessageKind::kTwistStamped);
+  addCameras(settings);
   flush();
   sync();
 }
 
-void SessionWriter::addCameras(const RigConfig& rig) {
+void SessionWriter::addCameras(const SessionSettings& settings) {
+  const RigConfig& rig = settings.rig;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const std::string topic = cameraTopic(rig, i);
     CameraChannels camera;
@@ -66,6 +67,13 @@ void SessionWriter::addCameras(const RigConfig& rig) {
     camera.state = channel(topic + "state", MessageKind::kCameraState);
     camera.info = channel(topic + "camera_info", MessageKind::kCameraInfo);
     camera.truth = channel(topic + "true_pose", MessageKind::kPoseStamped);
+    camera.track = channel(topic + "track", MessageKind::kCameraTrack);
+    camera.belief = channel(topic + "particles", MessageKind::kPointCloud);
+    if (i < settings.images.size()) camera.quality = settings.images[i].quality;
+    if (camera.quality == ImageQuality::kJpeg)
+      camera.image = channel(topic + kJpegTopic, MessageKind::kCompressedImage);
+    if (camera.quality == ImageQuality::kLossless)
+      camera.image = channel(topic + kImageTopic, MessageKind::kImage);
     encodeCameraInfo(out_, rig.cameras[i]);
     send(camera.info, 0);
     cameras_.push_back(camera);
@@ -73,7 +81,8 @@ void SessionWriter::addCameras(const RigConfig& rig) {
 }
 
 std::uint16_t SessionWriter::channel(const std::string& topic, MessageKind kind) {
-  return mcap_.addChannel(schemas_[static_cast<std::size_t>(kind)], topic, "cdr");
+  return mcap_.addChannel(schemas_[static_cast<std::size_t>(kind)], topic, "cdr",
+                          weightOf(messageName(kind)));
 }
 
 void SessionWriter::add(const FlightItem& item) {
@@ -89,6 +98,27 @@ void SessionWriter::write(std::uint64_t order, const UsedObservation& used) {
   const CameraChannels& camera = cameras_.at(static_cast<std::size_t>(used.observation.camera.index()));
   encodeObservation(out_, order, used, markers_, camera.frame);
   mcap_.addMessage(camera.observation, used.used, used.observation.exposure, out_.bytes());
+  if (used.track.exposure != used.observation.exposure) return;  // came too late for the tracker
+  encodeTrack(out_, used, markers_, camera.frame);
+  mcap_.addMessage(camera.track, used.used, used.observation.exposure, out_.bytes());
+}
+
+void SessionWriter::write(std::uint64_t, const CameraBelief& belief) {
+  CameraChannels& camera = cameras_.at(static_cast<std::size_t>(belief.camera.index()));
+  if (belief.view.count == 0) return;  // a method without hypotheses
+  if (camera.belief_written >= 0 && belief.time - camera.belief_written < kCameraStatePeriod) return;
+  camera.belief_written = belief.time;
+  encodeBelief(out_, belief);
+  send(camera.belief, belief.time);
+}
+
+void SessionWriter::addFrame(CameraId id, const RecordedFrame& frame) {
+  const CameraChannels& camera = cameras_.at(static_cast<std::size_t>(id.index()));
+  if (camera.quality == ImageQuality::kJpeg)
+    encodeJpeg(out_, frame, camera.frame);
+  else
+    encodeImage(out_, frame, camera.frame);
+  mcap_.addMessage(camera.image, frame.arrival, frame.exposure, out_.bytes());
 }
 
 void SessionWriter::write(std::uint64_t order, const CameraHidden& hidden) {
@@ -137,6 +167,8 @@ void SessionWriter::writeCamera(const EngineSnapshot& state, std::size_t index) 
   CameraChannels& camera = cameras_[index];
   const CameraSnapshot& now = state.cameras[index];
   const bool first = camera.extrinsics_written < 0;
+  const bool changed = now.estimate.status != camera.written.estimate.status ||
+                       now.hidden != camera.written.hidden || now.knocks != camera.written.knocks;
   if (first || state.time - camera.extrinsics_written >= kRepeat ||
       !sameEstimate(now.estimate, camera.written.estimate)) {
     camera.extrinsics_written = state.time;
@@ -153,9 +185,7 @@ void SessionWriter::writeCamera(const EngineSnapshot& state, std::size_t index) 
     }
     camera.written.estimate = now.estimate;
   }
-  if (first || state.time - camera.state_written >= kCameraStatePeriod ||
-      now.estimate.status != camera.written.estimate.status || now.hidden != camera.written.hidden ||
-      now.knocks != camera.written.knocks) {
+  if (first || changed || state.time - camera.state_written >= kCameraStatePeriod) {
     camera.state_written = state.time;
     encodeCameraState(out_, state.time, now);
     send(camera.state, state.time);

@@ -7,6 +7,7 @@
 
 #include "engine/session/cdr.h"
 #include "engine/session/flight_item.h"
+#include "engine/session/frame_queue.h"
 #include "engine/session/mcap_writer.h"
 #include "engine/session/message_types.h"
 #include "engine/session/session_settings.h"
@@ -20,7 +21,7 @@ class SessionWriter {
   SessionWriter(const std::filesystem::path& file, const SessionSettings& settings);
 
   void add(const FlightItem& item);
-  std::size_t chunkSize() const { return mcap_.chunkSize(); }
+  void addFrame(CameraId camera, const RecordedFrame& frame);
   void flush() { mcap_.flush(); }
   void sync() { mcap_.sync(); }
   void close() { mcap_.close(); }
@@ -29,11 +30,13 @@ class SessionWriter {
   struct CameraChannels {
     std::string frame;
     std::uint16_t observation = 0, extrinsics = 0, state = 0, info = 0, truth = 0;
+    std::uint16_t track = 0, belief = 0, image = 0;
+    ImageQuality quality = ImageQuality::kOff;
     CameraSnapshot written;  ///< as of the last message
-    TimeNs extrinsics_written = -1, state_written = -1;
+    TimeNs extrinsics_written = -1, state_written = -1, belief_written = -1;
   };
   std::uint16_t channel(const std::string& topic, MessageKind kind);
-  void addCameras(const RigConfig& rig);
+  void addCameras(const SessionSettings& settings);
   void send(std::uint16_t channel, TimeNs time) { mcap_.addMessage(channel, time, time, out_.bytes()); }
 
   void write(std::uint64_t order, const EngineEvent& event);
@@ -41,6 +44,7 @@ class SessionWriter {
   void write(std::uint64_t order, const FlightTick& tick);
   void write(std::uint64_t order, const CameraHidden& hidden);
   void write(std::uint64_t order, const CalibrationBegun& begun);
+  void write(std::uint64_t order, const CameraBelief& belief);
   void writeTruth(const EngineSnapshot& state);
   void writeCamera(const EngineSnapshot& state, std::size_t index);
 
@@ -65,5 +69,11 @@ inline constexpr const char* kSticksTopic = "/sticks";
 inline constexpr const char* kFlightStateTopic = "/flight/state";
 inline constexpr const char* kOrdersTopic = "/flight/orders";
 inline constexpr const char* kTruePoseTopic = "/truth/pose";
+inline constexpr const char* kTrueVelocityTopic = "/truth/velocity";
+inline constexpr const char* kVelocityTopic = "/helicopter/velocity";
+inline constexpr const char* kSetPointVelocityTopic = "/set_point/velocity";
+inline constexpr const char* kEventsTopic = "/events";
+inline constexpr const char* kImageTopic = "image_raw";  ///< behind a camera's, as ROS's cameras name it
+inline constexpr const char* kJpegTopic = "image_raw/compressed";
 
 }  // namespace helical

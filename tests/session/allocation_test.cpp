@@ -15,6 +15,8 @@ TEST(Recorder, AllocatesNothingOnTheFlightThread) {
   Observation observation;
   observation.count = kMaxCentroids;
   const CameraTrack track;
+  const auto belief = std::make_unique<CalibrationView>();
+  belief->count = CalibrationView::kMaxParticles;
   const EngineEvent event = Announcer::event(0, Severity::kInfo, "A gust");
   const long before = test::allocations();
   for (int i = 0; i < 3000; ++i) {
@@ -23,6 +25,7 @@ TEST(Recorder, AllocatesNothingOnTheFlightThread) {
     recorder.onHidden(cameraId(0), i % 2 == 0, i);
     recorder.onCalibration(cameraId(0), "joint", 1, i);
     recorder.onEvent(event);
+    recorder.onBelief(cameraId(0), *belief, i);
   }
   EXPECT_EQ(test::allocations(), before);
 }

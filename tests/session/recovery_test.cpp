@@ -130,6 +130,23 @@ TEST(Recovery, NothingToSaveIsAnErrorAndTheFileStays) {
   }
 }
 
+TEST(Recovery, KeepsTheOriginalWhenSomethingIsLeftOut) {
+  const TemporaryFolder folder;
+  const Written written = writeChunks(folder / "whole.mcap");
+  std::string bytes = written.bytes;
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  writeBytes(folder / "flipped.mcap", bytes);
+  const Recovery recovery = recoverMcap(folder / "flipped.mcap");
+  EXPECT_EQ(recovery.original, folder / "flipped.mcap.damaged");
+  EXPECT_EQ(bytesOf(recovery.original), bytes);
+  writeBytes(folder / "flipped.mcap", bytes);
+  EXPECT_EQ(recoverMcap(folder / "flipped.mcap").original, folder / "flipped.mcap.damaged2");
+  // Of a file that was merely cut off nothing is left out.
+  writeBytes(folder / "cut.mcap", written.bytes.substr(0, written.bytes.size() / 2));
+  EXPECT_TRUE(recoverMcap(folder / "cut.mcap").original.empty());
+  EXPECT_FALSE(std::filesystem::exists(folder / "cut.mcap.damaged"));
+}
+
 TEST(Reader, RandomDamageNeverDoesMoreThanLoseMessages) {
   const TemporaryFolder folder;
   const Written written = writeChunks(folder / "whole.mcap");

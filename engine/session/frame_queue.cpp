@@ -1,0 +1,57 @@
+#include "engine/session/frame_queue.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace helical {
+namespace {
+
+constexpr std::size_t kMostBytes = 64u << 20;
+constexpr std::size_t kFewestSlots = 4, kMostSlots = 16;
+
+}  // namespace
+
+FrameQueue::FrameQueue(const ImageRecording& recording, int width, int height) : recording_(recording) {
+  if (recording.quality == ImageQuality::kOff) return;
+  const std::size_t bytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  slots_.resize(std::clamp(kMostBytes / std::max<std::size_t>(1, bytes), kFewestSlots, kMostSlots));
+  for (RecordedFrame& slot : slots_) slot.pixels.resize(bytes);
+}
+
+bool FrameQueue::wants(const Frame& frame) {
+  if (recording_.quality == ImageQuality::kOff) return false;
+  if (recording_.rate_hz <= 0.0) return true;
+  if (frame.exposure < due_) return false;
+  const TimeNs period = fromSeconds(1.0 / recording_.rate_hz);
+  due_ = std::max(due_ + period, frame.exposure + period / 2);
+  return true;
+}
+
+bool FrameQueue::push(const Frame& frame) {
+  const std::size_t head = head_.load(std::memory_order_relaxed);
+  if (head - tail_.load(std::memory_order_acquire) == slots_.size()) return false;
+  RecordedFrame& slot = slots_[head % slots_.size()];
+  slot.exposure = frame.exposure;
+  slot.arrival = frame.arrival;
+  slot.width = frame.image.width;
+  slot.height = frame.image.height;
+  slot.format = frame.image.format;
+  const auto row_bytes = static_cast<std::size_t>(frame.image.width * bytesPerPixel(frame.image.format));
+  slot.pixels.resize(row_bytes * static_cast<std::size_t>(frame.image.height));
+  for (int y = 0; y < frame.image.height; ++y)
+    std::memcpy(slot.pixels.data() + row_bytes * static_cast<std::size_t>(y), frame.image.row(y), row_bytes);
+  head_.store(head + 1, std::memory_order_release);
+  return true;
+}
+
+const RecordedFrame* FrameQueue::front() const {
+  const std::size_t tail = tail_.load(std::memory_order_relaxed);
+  if (tail == head_.load(std::memory_order_acquire)) return nullptr;
+  return &slots_[tail % slots_.size()];
+}
+
+void FrameQueue::pop() {
+  tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+}
+
+}  // namespace helical

@@ -19,13 +19,14 @@ HEADER_THIRD_PARTY = re.compile(r"^Eigen/")
 
 # The engine as the window knows it: the facade and value types.
 UI_MAY_INCLUDE = re.compile(
-    r"^(engine/pipeline/(engine|snapshot|white_board)\.h"
+    r"^(engine/pipeline/(engine|flight_view|snapshot|white_board)\.h"
     r"|engine/config/\w+\.h"
     r"|engine/flight/(flight_plan|flight_state)\.h"
     r"|engine/(base|geometry|helicopter)/\w+\.h"
     r"|engine/cameras/frame\.h"
     r"|engine/markers/observation\.h"
     r"|engine/experiments/flight_trace\.h"
+    r"|engine/session/(flight_playback|session_summary)\.h"
     r"|engine/tracking/track\.h)$"
 )
 

@@ -32,14 +32,14 @@ std::filesystem::path writeFile(const std::filesystem::path& path, const Write& 
   return path;
 }
 
-void writePng(QIODevice& file, const Figure& figure, const std::filesystem::path& path) {
+void fillPng(QIODevice& file, const Figure& figure, const std::filesystem::path& path) {
   QImageWriter writer(&file, "png");
   writer.setText(QStringLiteral("Title"), figure.title);
   writer.setText(QStringLiteral("Software"), QStringLiteral("Helical"));
   if (!writer.write(paintFigure(figure))) cannotWrite(path, writer.errorString());
 }
 
-void writePdf(QIODevice& file, const Figure& figure, const std::filesystem::path& path) {
+void fillPdf(QIODevice& file, const Figure& figure, const std::filesystem::path& path) {
   const FigureLayout layout = layoutFigure(figure);
   QPdfWriter writer(&file);
   writer.setTitle(figure.title);
@@ -71,11 +71,18 @@ QImage paintFigure(const Figure& figure) {
   return image;
 }
 
-std::vector<std::filesystem::path> writeFigure(const Figure& figure, const std::filesystem::path& folder) {
+std::filesystem::path writePng(const Figure& figure, const std::filesystem::path& folder) {
   const std::filesystem::path png = folder / (figure.file_stem + ".png").toStdString();
+  return writeFile(png, [&](QIODevice& file) { fillPng(file, figure, png); });
+}
+
+std::filesystem::path writePdf(const Figure& figure, const std::filesystem::path& folder) {
   const std::filesystem::path pdf = folder / (figure.file_stem + ".pdf").toStdString();
-  return {writeFile(png, [&](QIODevice& file) { writePng(file, figure, png); }),
-          writeFile(pdf, [&](QIODevice& file) { writePdf(file, figure, pdf); })};
+  return writeFile(pdf, [&](QIODevice& file) { fillPdf(file, figure, pdf); });
+}
+
+std::vector<std::filesystem::path> writeFigure(const Figure& figure, const std::filesystem::path& folder) {
+  return {writePng(figure, folder), writePdf(figure, folder)};
 }
 
 }  // namespace helical::figures

@@ -43,10 +43,12 @@ struct WindowArguments {
   std::string plan = "demonstration";
   bool no_record = false;
   std::vector<std::string> session_images;
+  std::string session;
 };
 
 int openWindow(const WindowArguments& arguments, int argc, char** argv) {
 #ifdef HELICAL_HAS_WINDOW
+  if (!arguments.session.empty()) return helical::runSessionWindow(argc, argv, arguments.session);
   const std::filesystem::path rig = arguments.rig_file.empty()
                                         ? helical::resourceFolder() / "rigs" / "paper.toml"
                                         : std::filesystem::path(arguments.rig_file);
@@ -79,6 +81,7 @@ int main(int argc, char** argv) {
       app.add_option("--rig", window.rig_file, "Rig file for the window"),
       app.add_option("--plan", window.plan,
                      "Flight plan for the window: demonstration, hover, waypoints, or a file"),
+      app.add_option("--session", window.session, "A recorded flight to look at in the window"),
       app.add_flag("--no-record", window.no_record, "The window's flight leaves no session behind"),
       app.add_option("--session-images", window.session_images,
                      "[CAM=]off|jpeg|lossless[@HZ]: images in the window's record, of one camera or all")};

@@ -13,11 +13,13 @@
 #include <memory>
 
 #include "app/mending_offer.h"
+#include "app/session_windows.h"
 #include "engine/base/error.h"
 #include "engine/config/text_file.h"
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/first_guess.h"
+#include "engine/session/flight_playback.h"
 #include "engine/session/recorder.h"
 #include "engine/session/session_folder.h"
 #include "ui/main_window.h"
@@ -71,6 +73,18 @@ void printFirstImage(qint64 since_process_start) {
                static_cast<long long>(since_process_start / kNanosecondsPerMillisecond));
 }
 
+void prepareDisplay() {
+  requireDisplay();
+  preferGlx();
+  keepSoftwareRendererModest();
+}
+
+void dress(QApplication& application) {
+  QApplication::setApplicationName(QStringLiteral("helical"));
+  QApplication::setApplicationDisplayName(QStringLiteral("Helical Ground Control"));
+  theme::apply(application);
+}
+
 /// The flight goes on, whatever the disk says: the window tells.
 std::unique_ptr<Recorder> startRecorder(const WindowFlight& flight) {
   if (!flight.record) return nullptr;
@@ -97,9 +111,7 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
   // What there is to see of it are particles that gather where the camera is.
   if (flight.demonstration) rig.calibrator = "particle-filter";
   giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
-  requireDisplay();
-  preferGlx();
-  keepSoftwareRendererModest();
+  prepareDisplay();
   const std::vector<std::filesystem::path> cut_off = cutOffSessions(sessionFolder());
   const std::unique_ptr<Recorder> recorder = startRecorder(flight);
   // The engine prepares its sources while Qt opens the display.
@@ -109,12 +121,10 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
     return engine;
   });
   QApplication application(argc, argv);
-  QApplication::setApplicationName(QStringLiteral("helical"));
-  QApplication::setApplicationDisplayName(QStringLiteral("Helical Ground Control"));
-  theme::apply(application);
-
+  dress(application);
   WindowOptions options;
   options.auto_take_off = flight.demonstration;
+  options.session_folder = QString::fromStdString(sessionFolder().string());
   options.layout_file = QStandardPaths::writableLocation(QStandardPaths::AppConfigLocation) + "/layout.ini";
   MainWindow window(rig, options);
   QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);
@@ -123,11 +133,22 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
   const std::unique_ptr<Engine> engine = starting.get();
   window.attach(*engine);
   MendingOffer offer(window, cut_off);
+  SessionWindows sessions(&window);
   const int exit_code = QApplication::exec();
   window.detach();
   engine->stop();
   if (recorder) recorder->finish();
   return exit_code;
+}
+
+int runSessionWindow(int argc, char** argv, const std::string& session) {
+  FlightPlayback{session};  // says what is wrong with it before a display is asked for
+  prepareDisplay();
+  QApplication application(argc, argv);
+  dress(application);
+  SessionWindows sessions;
+  sessions.open(session);
+  return QApplication::exec();
 }
 
 }  // namespace helical

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/config/rig_config.h"
@@ -23,5 +24,9 @@ struct WindowFlight {
 /// Throws Error(kSystem) where there is no display, and what the engine throws when it cannot start.
 /// HELICAL_PRINT_STARTUP=1 prints the time to the first picture on stderr.
 int runWindow(int argc, char** argv, WindowFlight flight);
+
+/// The window on a recorded flight. Throws Error(kInput) for what is no session, Error(kSystem) without a
+/// display.
+int runSessionWindow(int argc, char** argv, const std::string& session);
 
 }  // namespace helical

@@ -13,6 +13,7 @@ constexpr TimeNs kFarthest = 50 * kNanosecondsPerMillisecond;
 void CameraTrackHistory::add(const CameraTrack& track) {
   const CameraTrack* last = newest();
   if (track.exposure == 0 || (last != nullptr && last->exposure == track.exposure)) return;
+  if (last != nullptr && track.exposure < last->exposure) count_ = 0;  // a recording was wound back
   tracks_[count_++ % kLength] = track;
 }
 

@@ -86,6 +86,8 @@ EventList::EventList(QWidget* parent) : QListWidget(parent) {
 }
 
 void EventList::add(const EngineEvent& event) {
+  if (event.time < last_) clear();  // a recording was wound back
+  last_ = event.time;
   const bool at_end = verticalScrollBar()->value() == verticalScrollBar()->maximum();
   auto* item = new QListWidgetItem(QString::fromUtf8(event.text.data()));
   item->setData(kSeverityRole, static_cast<int>(event.severity));

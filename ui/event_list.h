@@ -13,9 +13,13 @@ class EventList : public QListWidget {
  public:
   explicit EventList(QWidget* parent = nullptr);
 
+  /// One from before the last begins anew: a recording that was wound back.
   void add(const EngineEvent& event);
   QSize sizeHint() const override { return {272, 200}; }
   QSize minimumSizeHint() const override { return {200, 80}; }
+
+ private:
+  TimeNs last_ = 0;
 };
 
 }  // namespace helical

@@ -3,9 +3,12 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QDockWidget>
+#include <QDropEvent>
+#include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
@@ -27,6 +30,7 @@
 #include "ui/flight_panel.h"
 #include "ui/format.h"
 #include "ui/panel_title.h"
+#include "ui/playback_bar.h"
 #include "ui/plot_deck.h"
 #include "ui/scene_view.h"
 #include "ui/startup_time.h"
@@ -101,13 +105,27 @@ MainWindow::~MainWindow() = default;
 
 void MainWindow::attach(Engine& engine) {
   engine_ = &engine;
-  scene_->setPlan(engine.plan());
+  watch(engine);
+}
+
+void MainWindow::attach(FlightPlayback& playback) {
+  playback_bar_ = new PlaybackBar(playback);
+  statusBar()->insertWidget(0, playback_bar_, 1);
+  newest_event_->hide();
+  setWindowTitle(tr("%1 - recorded flight").arg(QString::fromStdString(playback.file().filename().string())));
+  watch(playback);
+}
+
+void MainWindow::watch(FlightView& view) {
+  view_ = &view;
+  scene_->setPlan(view.plan());
   since_load_.start();
   timer_.start(kTickMs);
 }
 
 void MainWindow::detach() {
   timer_.stop();
+  view_ = nullptr;
   engine_ = nullptr;
 }
 
@@ -220,11 +238,33 @@ void MainWindow::buildSceneTitle(PanelTitle& title) {
 }
 
 void MainWindow::buildMenus() {
+  buildFileMenu();
   buildFlightMenu();
   buildCameraMenu();
   buildDisturbMenu();
   buildViewMenu();
   buildHelpMenu();
+}
+
+void MainWindow::buildFileMenu() {
+  setAcceptDrops(true);
+  QMenu* menu = top_bar_->menuBar()->addMenu(tr("F&ile"));
+  menu->addAction(tr("Open session..."), QKeySequence::Open, this, &MainWindow::chooseSession);
+}
+
+void MainWindow::chooseSession() {
+  const QString file = QFileDialog::getOpenFileName(this, tr("Open a recorded flight"),
+                                                    options_.session_folder, tr("Sessions (*.mcap)"));
+  if (!file.isEmpty()) Q_EMIT sessionChosen(file);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile())
+    event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  Q_EMIT sessionChosen(event->mimeData()->urls().first().toLocalFile());
 }
 
 void MainWindow::buildFlightMenu() {
@@ -382,17 +422,18 @@ void MainWindow::stop() {
 
 void MainWindow::tick() {
   ++ticks_;
-  engine_->poll();
+  view_->poll();
+  if (playback_bar_ != nullptr) playback_bar_->refresh();
   fetchTicks();
   EngineEvent event;
-  while (engine_->nextEvent(event)) {
+  while (view_->nextEvent(event)) {
     events_->add(event);
     alarms_->add(event);
     newest_event_->setText(QString::fromUtf8(event.text.data()));
   }
   if (ticks_ % kPictureEvery == 0) fetchPictures();
   if (ticks_ % kSceneEvery == 0) fetchCalibrations();
-  const EngineSnapshot& snapshot = engine_->snapshot();
+  const EngineSnapshot& snapshot = view_->snapshot();
   if (ticks_ % kSceneEvery == 0 && snapshot.time > kSceneFrom) scene_->show(snapshot);
   if (ticks_ % kPlotsEvery == 1) plots_->redraw();
   if (ticks_ % kNumbersEvery == 1 && snapshot.tick > 0) showNumbers(snapshot);
@@ -405,7 +446,7 @@ void MainWindow::tick() {
 
 void MainWindow::fetchTicks() {
   EngineSnapshot tick;
-  while (engine_->nextTick(tick)) {
+  while (view_->nextTick(tick)) {
     plots_->addTick(tick);
     scene_->addTick(tick);
     for (int i = 0; i < std::min(tick.camera_count, cameras_->count()); ++i)
@@ -415,13 +456,13 @@ void MainWindow::fetchTicks() {
 
 void MainWindow::fetchPictures() {
   for (int i = 0; i < cameras_->count(); ++i)
-    if (engine_->pollPicture(cameraId(i))) cameras_->pane(i).setPicture(engine_->picture(cameraId(i)));
+    if (view_->pollPicture(cameraId(i))) cameras_->pane(i).setPicture(view_->picture(cameraId(i)));
 }
 
 void MainWindow::fetchCalibrations() {
   for (int i = 0; i < cameras_->count(); ++i) {
-    if (!engine_->pollCalibration(cameraId(i))) continue;
-    const CalibrationView& view = engine_->calibration(cameraId(i));
+    if (!view_->pollCalibration(cameraId(i))) continue;
+    const CalibrationView& view = view_->calibration(cameraId(i));
     scene_->setCalibration(i, view);
     calibration_->setHypotheses(i, view.total);
   }
@@ -434,6 +475,11 @@ void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
     hide_actions_[static_cast<std::size_t>(i)]->setChecked(camera.hidden);
   }
   top_bar_->show(snapshot);
+  if (engine_ == nullptr) {
+    // Nobody flies here.
+    top_bar_->takeOffButton()->setEnabled(false);
+    top_bar_->landButton()->setEnabled(false);
+  }
   take_off_action_->setEnabled(top_bar_->takeOffButton()->isEnabled());
   land_action_->setEnabled(top_bar_->landButton()->isEnabled());
   flight_->show(snapshot);
@@ -448,7 +494,7 @@ void MainWindow::showLoad() {
   scenes_at_load_ = scene_->renderedFrames();
   load_->setText(tr("GUI %1 Hz   3D %2 ms   lost ticks %3")
                      .arg(plainNumber(gui_hz, 1), plainNumber(scene_->renderMilliseconds(), 1))
-                     .arg(engine_->lostTicks()));
+                     .arg(view_->lostTicks()));
   scene_title_->setNote(tr("%1 Hz").arg(plainNumber(scene_hz, 0)));
 }
 

@@ -21,13 +21,16 @@ class CalibrationPanel;
 class CameraWall;
 class EventList;
 class FlightPanel;
+class FlightPlayback;
 class PanelTitle;
+class PlaybackBar;
 class PlotDeck;
 class SceneView;
 class TopBar;
 
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
+  QString session_folder;      ///< where File > Open session begins
   QString layout_file;         ///< where the panels' places are kept from one session to the next; empty: not
 };
 
@@ -43,6 +46,8 @@ class MainWindow : public QMainWindow {
 
   /// From now on shows and commands this engine, which must outlive the window or be detached.
   void attach(Engine& engine);
+  /// A recorded flight, which can be looked at alone.
+  void attach(FlightPlayback& playback);
   void detach();
 
   /// Fills the screen up to 1920x1080.
@@ -62,6 +67,8 @@ class MainWindow : public QMainWindow {
   TopBar& topBar() const { return *top_bar_; }
 
  Q_SIGNALS:
+  /// File > Open session, or a file dragged onto the window.
+  void sessionChosen(const QString& file);
   void firstImage(qint64 since_process_start_ns);
 
  public Q_SLOTS:
@@ -72,6 +79,8 @@ class MainWindow : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
  private:
   void saveLayout() const;
@@ -79,6 +88,7 @@ class MainWindow : public QMainWindow {
   QDockWidget* addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area);
   void buildSceneTitle(PanelTitle& title);
   void buildMenus();
+  void buildFileMenu();
   void buildFlightMenu();
   void buildCameraMenu();
   void buildDisturbMenu();
@@ -90,6 +100,8 @@ class MainWindow : public QMainWindow {
   void showAbout();
   void toggleFullScreen(bool full);
 
+  void watch(FlightView& view);
+  void chooseSession();
   void tick();
   void fetchTicks();
   void fetchPictures();
@@ -101,7 +113,9 @@ class MainWindow : public QMainWindow {
 
   const RigConfig rig_;
   const WindowOptions options_;
-  Engine* engine_ = nullptr;
+  FlightView* view_ = nullptr;  ///< what is shown
+  Engine* engine_ = nullptr;    ///< the same where it can be commanded
+  PlaybackBar* playback_bar_ = nullptr;
   QTimer timer_;
   QElapsedTimer since_load_;
   std::uint64_t ticks_ = 0;

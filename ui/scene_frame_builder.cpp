@@ -89,6 +89,7 @@ void SceneFrameBuilder::setCalibration(int camera, const CalibrationView& view) 
 }
 
 void SceneFrameBuilder::addToTrail(const EngineSnapshot& tick) {
+  if (!trail_.empty() && tick.time < trail_.back().time) trail_.clear();  // a recording was wound back
   if (trail_.empty() || tick.time - trail_.back().time >= kTrailStep)
     trail_.push_back({tick.time, last_pose_.translation});
   while (tick.time - trail_.front().time > kTrailLength) trail_.pop_front();

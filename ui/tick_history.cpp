@@ -35,6 +35,7 @@ void TickHistory::set(int camera, CameraColumn which, double value) {
 }
 
 void TickHistory::add(const EngineSnapshot& tick) {
+  if (end_ > 0 && toSeconds(tick.time) < time(end_ - 1)) end_ = 0;
   times_[slot(end_)] = toSeconds(tick.time);
   addFlight(tick);
   for (int i = 0; i < cameras_; ++i) addCamera(tick, i);

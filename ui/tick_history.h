@@ -55,6 +55,7 @@ class TickHistory {
 
   explicit TickHistory(int cameras);
 
+  /// A tick from before the last one begins anew: a recording that was wound back.
   void add(const EngineSnapshot& tick);
 
   /// Rows are numbered from the first tick ever; those before `first` are forgotten.

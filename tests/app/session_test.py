@@ -93,6 +93,33 @@ class Session(unittest.TestCase):
         self.assertGreater(report["replay"]["different_ticks"], 100)
         self.assertEqual(report["cameras"][2]["calibration"]["method"], "ekf")
 
+    def test_a_fork_without_changes_is_the_flight_that_was(self):
+        code, report = run_json("replay", self.file, "--fork-at", 12)
+        self.assertEqual((code, report["fork"]["different_before"]), (0, 0))
+        self.assertEqual((report["fork"]["would_have_crashed"], report["fork"]["recorded_crashed"]), (False, False))
+        for field in ("outcome", "duration_s", "tracking", "control", "failsafes"):
+            self.assertEqual(report[field], self.report[field])
+
+    def test_a_fork_flies_on_in_the_world_itself(self):
+        blind = [part for camera in (1, 2, 3) for part in ("--occlude", f"{camera}@12-60")]
+        code, report = run_json("replay", self.file, "--fork-at", 12, *blind)
+        self.assertEqual(report["fork"]["different_before"], 0)
+        self.assertEqual(code, 1 if report["fork"]["would_have_crashed"] else 0)
+        self.assertNotEqual(report["failsafes"], [])
+        self.assertGreater(report["tracking"]["lost_s"], 1.0)
+
+    def test_a_pipe_that_nobody_reads_does_not_end_the_flight(self):
+        pipe = self.path("pipe")
+        os.mkfifo(pipe)
+        with subprocess.Popen([BINARY, *map(str, FLIGHT), "--json", "--session", pipe], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as flight:
+            with open(pipe, "rb") as reader:
+                reader.read(1000)
+            out, told = flight.communicate(timeout=600)
+        self.assertEqual(flight.returncode, 0, told)
+        self.assertEqual(without_run(json.loads(out)), without_run(self.report))
+        self.assertIn("cut off", told)
+
     def test_a_cut_file_is_read_and_mended(self):
         cut = self.cut("cut.mcap", 0.6)
         before = McapFile(cut)
@@ -137,7 +164,9 @@ class Session(unittest.TestCase):
                         ("fly", "--no-images", "--session", "/no/such/folder/a.mcap"),
                         ("export", self.file, "--format", "mp4", "--out", self.path("no")),
                         ("replay", self.file, "--calibrator", "nobody"),
-                        ("replay", self.file, "--occlude", "9@1-2")):
+                        ("replay", self.file, "--occlude", "9@1-2"),
+                        ("replay", self.file, "--fork-at", "999"),
+                        ("replay", self.file, "--fork-at", "12", "--occlude", "1@5-6")):
             result = run(*command)
             self.assertEqual(result.returncode, 2, command)
             self.assertIn("cure:", result.stderr, command)

@@ -12,6 +12,7 @@
 #include "engine/geometry/rigid_transform.h"
 #include "engine/helicopter/helicopter_parameters.h"
 #include "engine/helicopter/marker_layout.h"
+#include "engine/markers/ignored_areas.h"
 #include "engine/markers/marker_options.h"
 #include "engine/simulator/simulation_options.h"
 #include "engine/tracking/tracker_options.h"
@@ -26,6 +27,7 @@ struct CameraConfig {
   std::optional<RigidTransform> camera_from_world;  ///< nothing: un-calibrated
   bool pose_is_guess = false;                       ///< `initial = true`
   std::optional<Matrix6d> pose_covariance;          ///< of CameraEstimate's perturbation, if the file tells
+  IgnoredAreas ignored_areas;                       ///< no marker is looked for there
 };
 
 /// A rig file, loaded and validated. Immutable after.

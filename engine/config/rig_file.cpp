@@ -98,6 +98,7 @@ CameraConfig readCamera(TomlTable& table) {
   camera.source = readSource(table);
   const Eigen::VectorXd vga = Eigen::Vector2d(640, 480);
   const Eigen::VectorXd size = table.required("size", table.numbers("size", 2), vga, "size = [640, 480]");
+  camera.ignored_areas = table.polygons("ignored_areas_px").value_or(IgnoredAreas{});
   TomlTable intrinsics = table.table("intrinsics"), pose = table.table("pose");
   table.finish();
   camera.model = readModel(table, size, std::move(intrinsics));

@@ -68,6 +68,8 @@ constexpr OptionField<MarkerOptions> kMarkerFields[] = {
     {"value_high", &MarkerOptions::value_high},
     {"background_threshold", &MarkerOptions::background_threshold},
     {"background_frames", &MarkerOptions::background_frames},
+    {"background_rows", &MarkerOptions::background_rows},
+    {"whole_every", &MarkerOptions::whole_every},
     {"opening_px", &MarkerOptions::opening_px},
     {"closing_px", &MarkerOptions::closing_px},
     {"minimum_area_px", &MarkerOptions::minimum_area_px},

@@ -221,6 +221,25 @@ std::optional<std::vector<Eigen::Vector3d>> TomlTable::points(std::string_view k
   return points;
 }
 
+std::optional<std::vector<std::vector<Eigen::Vector2d>>> TomlTable::polygons(std::string_view key) {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return std::nullopt;
+  const char* const wanted = "an array of polygons [[x, y], [x, y], [x, y]]";
+  if (!node->is_array()) state_->wrongType(key, *node, wanted);
+  std::vector<std::vector<Eigen::Vector2d>> polygons;
+  for (const toml::node& polygon : *node->as_array()) {
+    if (!polygon.is_array()) state_->wrongType(key, polygon, wanted);
+    auto& corners = polygons.emplace_back();
+    for (const toml::node& corner : *polygon.as_array())
+      corners.emplace_back(state_->finiteArray(key, corner, 2));
+    if (corners.size() < 3)
+      state_->fail(static_cast<int>(polygon.source().begin.line),
+                   "a polygon of '" + std::string(key) + "' has " + std::to_string(corners.size()) + " corners",
+                   "give each polygon three corners [x, y] or more");
+  }
+  return polygons;
+}
+
 void TomlTable::missing(std::string_view key, std::string_view example) {
   state_->missing.emplace_back(key, example);
 }

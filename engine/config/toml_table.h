@@ -36,6 +36,8 @@ class TomlTable {
   std::optional<Eigen::VectorXd> numbers(std::string_view key, int count, int other_count);
   /// Any number of points [x, y, z].
   std::optional<std::vector<Eigen::Vector3d>> points(std::string_view key);
+  /// Any number of polygons [[x, y], [x, y], [x, y], ...], each of three corners and more.
+  std::optional<std::vector<std::vector<Eigen::Vector2d>>> polygons(std::string_view key);
 
   /// `value`, or what `missing` says is missing: `finish` reports it, after unknown keys, because a misspelt
   /// key is why most keys are missing.

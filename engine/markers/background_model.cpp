@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/markers/background_kernels.h"
+
 namespace helical {
 
 int rowBytes(const ImageView& image) {
@@ -32,6 +34,26 @@ void BackgroundModel::update(const ImageView& image) {
   if (taken_ == frames_) average();
 }
 
+void BackgroundModel::adapt(const ImageView& image, int rows, int most, const KeptOut& kept_out) {
+  if (state_ != State::kReady || !fits(image)) return;
+  const int row_bytes = rowBytes(image), bytes = row_bytes / width_;
+  const auto move = [&](int y, int from, int to) {
+    if (from >= to) return;
+    moveTowards(image.row(y) + from, static_cast<std::size_t>(to - from), static_cast<std::uint8_t>(most),
+                mean_.data() + static_cast<std::ptrdiff_t>(y) * row_bytes + from);
+  };
+  for (int i = 0; i < std::min(rows, height_); ++i) {
+    const int y = next_row_;
+    next_row_ = (next_row_ + 1) % height_;
+    if (y < kept_out.top || y > kept_out.bottom) {
+      move(y, 0, row_bytes);
+      continue;
+    }
+    move(y, 0, bytes * std::clamp(kept_out.left, 0, width_));
+    move(y, bytes * std::clamp(kept_out.right + 1, 0, width_), row_bytes);
+  }
+}
+
 ImageView BackgroundModel::view() const {
   ImageView view{mean_.data(), width_, height_, 0, format_};
   view.stride = rowBytes(view);
@@ -46,6 +68,7 @@ void BackgroundModel::resize(const ImageView& image) {
   width_ = image.width;
   height_ = image.height;
   format_ = image.format;
+  next_row_ = 0;
   const auto bytes = static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height_);
   mean_.resize(bytes);
   sums_.resize(bytes);

@@ -8,8 +8,8 @@
 namespace helical {
 
 /// The image of the empty field that markers are told from: the rounded mean of some frames, or one given
-/// image, or none at all (colour alone). A frame of another size or format starts the averaging anew.
-/// Allocates when a size is first seen. One thread.
+/// image, or none at all (colour alone). A frame of another size or format starts the averaging anew. `adapt`
+/// follows light that changes slowly. Allocates when a size is first seen. One thread.
 class BackgroundModel {
  public:
   enum class State { kTaking, kReady, kDisabled };
@@ -22,6 +22,14 @@ class BackgroundModel {
 
   /// Feeds a frame; afterwards `state` says whether markers can be looked for in it.
   void update(const ImageView& image);
+
+  /// Moves the next `rows` rows by one level towards the frame, outside of `left` to `right` in rows `top` to
+  /// `bottom` (pixels, all inside), where the helicopter is. What differs by more than `most` is no change of
+  /// light and stays as it is: a ball that was not found, standing still, never becomes background.
+  struct KeptOut {
+    int left = 0, top = 0, right = -1, bottom = -1;
+  };
+  void adapt(const ImageView& image, int rows, int most, const KeptOut& kept_out);
 
   State state() const { return state_; }
   /// Valid in state kReady; rows are packed.
@@ -36,6 +44,7 @@ class BackgroundModel {
   int frames_;
   State state_ = State::kTaking;
   int taken_ = 0;
+  int next_row_ = 0;
   int width_ = 0;
   int height_ = 0;
   PixelFormat format_ = PixelFormat::kBgr8;

@@ -35,11 +35,21 @@ cv::Mat planeOf(int last, ColourClass::Order order) {
 std::shared_ptr<const ColourClass> ColourClass::of(const ColourRange& options, Order order) {
   static std::mutex mutex;
   static std::vector<std::pair<decltype(key(options, order)), std::weak_ptr<const ColourClass>>> known;
-  const std::lock_guard lock(mutex);
-  std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
-  for (const auto& [range, weak] : known)
-    if (range == key(options, order)) return weak.lock();
+  const auto find = [&]() -> std::shared_ptr<const ColourClass> {
+    for (const auto& [range, weak] : known)
+      if (range == key(options, order))
+        if (auto alive = weak.lock()) return alive;
+    return nullptr;
+  };
+  {
+    const std::lock_guard lock(mutex);
+    if (auto alive = find()) return alive;
+  }
+  // Not under the lock: building takes long, and a capture thread may be waiting for a class that exists.
   auto made = std::make_shared<const ColourClass>(options, order);
+  const std::lock_guard lock(mutex);
+  if (auto alive = find()) return alive;
+  std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
   known.emplace_back(key(options, order), made);
   return made;
 }

@@ -2,11 +2,18 @@
 
 #include <utility>
 
+#include "engine/markers/sphere_image.h"
+
 namespace helical {
 
 ExtractingSource::ExtractingSource(std::unique_ptr<CameraSource> source, const MarkerOptions& options,
-                                   FrameTap on_frame)
-    : source_(std::move(source)), extractor_(options), on_frame_(std::move(on_frame)) {}
+                                   FrameTap on_frame, std::shared_ptr<ExtractorOrders> orders,
+                                   const std::optional<CameraModel>& lens)
+    : source_(std::move(source)),
+      extractor_(options),
+      on_frame_(std::move(on_frame)),
+      orders_(std::move(orders)),
+      lens_(lens) {}
 
 bool ExtractingSource::poll(Observation& observation) {
   Frame frame;
@@ -15,7 +22,9 @@ bool ExtractingSource::poll(Observation& observation) {
   observation.sequence = frame.sequence;
   observation.exposure = frame.exposure;
   observation.arrival = frame.arrival;
+  if (orders_) orders_->carryOut(extractor_);
   extractor_.extract(frame.image, observation);
+  if (lens_) moveToBallCentres(*lens_, observation);
   if (on_frame_) on_frame_(frame, observation);
   return true;
 }

@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "engine/cameras/camera_source.h"
-#include "engine/markers/extractor.h"
+#include "engine/geometry/camera_model.h"
+#include "engine/markers/extractor_orders.h"
 
 namespace helical {
 
@@ -14,8 +16,11 @@ class ExtractingSource final : public ObservationSource {
   /// `on_frame`, if given, sees every frame with what was found in it (for display), on the capture thread.
   using FrameTap = std::function<void(const Frame&, const Observation&)>;
 
-  ExtractingSource(std::unique_ptr<CameraSource> source, const MarkerOptions& options,
-                   FrameTap on_frame = {});
+  /// `orders`, if given, are carried out from frame to frame. With a `lens`, centroids are where the balls'
+  /// centres are seen, not the centres of their outlines.
+  ExtractingSource(std::unique_ptr<CameraSource> source, const MarkerOptions& options, FrameTap on_frame = {},
+                   std::shared_ptr<ExtractorOrders> orders = nullptr,
+                   const std::optional<CameraModel>& lens = std::nullopt);
 
   CameraId camera() const override { return source_->camera(); }
   bool poll(Observation& observation) override;
@@ -25,6 +30,8 @@ class ExtractingSource final : public ObservationSource {
   std::unique_ptr<CameraSource> source_;
   Extractor extractor_;
   FrameTap on_frame_;
+  std::shared_ptr<ExtractorOrders> orders_;
+  std::optional<CameraModel> lens_;
 };
 
 }  // namespace helical

@@ -1,20 +1,27 @@
 #include "engine/markers/extractor.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/base/clock.h"
 #include "engine/markers/background_model.h"
+#include "engine/markers/binary_mask.h"
 #include "engine/markers/disc_fit.h"
 #include "engine/markers/region_finder.h"
 #include "engine/markers/region_selection.h"
+#include "engine/markers/search_windows.h"
 
 namespace helical {
 namespace {
 
 /// px per axis: what the pixels' noise does not explain, such as the edge's sampling.
 constexpr double kDiscSigma = 0.01;
+/// px around everything that was found, more by half its extent, which the background does not learn from: the
+/// rest of the helicopter.
+constexpr int kAround = 24;
 
 }  // namespace
 
@@ -23,14 +30,17 @@ struct Extractor::Workspace {
       : options(marker_options),
         background(marker_options.background_frames),
         finder(marker_options.opening_px, marker_options.closing_px),
-        selection(options) {
+        selection(options),
+        search(finder.border()) {
     colours.push_back(options);
     colours.insert(colours.end(), options.other_colours.begin(), options.other_colours.end());
   }
 
   void resize(const ImageView& image);
+  void adaptBackground(const ImageView& image);
   CellRule ruleOf(std::size_t colour) const;
   void findMarkers(const ImageView& image, Observation& observation);
+  void findRegions(const CellGrid& grid, std::span<const WordRect> windows);
   Centroid locate(const ColouredRegion& region, const CellGrid& grid);
 
   MarkerOptions options;
@@ -39,7 +49,12 @@ struct Extractor::Workspace {
   BackgroundModel background;
   RegionFinder finder;
   RegionSelection selection;
+  SearchWindows search;
+  BallPredictions predictions;
+  int since_whole = 0;  ///< frames read by windows since one was read as a whole
   DiscFit disc_fit;
+  IgnoredAreas ignored_areas;
+  BinaryMask ignored;  ///< of `ignored_areas`, unless there are none
   int width = 0;
   int height = 0;
   std::optional<PixelFormat> format;
@@ -52,6 +67,7 @@ void Extractor::Workspace::resize(const ImageView& image) {
   height = image.height;
   format = image.format;
   finder.resize(grid.width, grid.height);
+  if (!ignored_areas.empty()) fillMask(ignored_areas, grid, ignored);
   classes.clear();
   if (grid.layout == CellLayout::kBytes) return;
   for (const ColourRange& colour : colours)
@@ -68,15 +84,46 @@ CellRule Extractor::Workspace::ruleOf(std::size_t colour) const {
 
 void Extractor::Workspace::findMarkers(const ImageView& image, Observation& observation) {
   const CellGrid grid(image);
+  bool done = false;
+  if (++since_whole < options.whole_every && search.place(predictions, observation.exposure, grid)) {
+    findRegions(grid, search.windows());
+    done = search.hold(selection.sorted());
+  }
+  if (!done) {
+    findRegions(grid, {});
+    since_whole = 0;
+  }
+  for (const ColouredRegion& region : selection.sorted())
+    observation.centroids[static_cast<std::size_t>(observation.count++)] = locate(region, grid);
+  observation.truncated = selection.truncated();
+}
+
+void Extractor::Workspace::findRegions(const CellGrid& grid, std::span<const WordRect> windows) {
   CellGrid empty;
   const bool has_background = background.state() == BackgroundModel::State::kReady;
   if (has_background) empty = CellGrid(background.view());
   selection.clear();
   for (std::size_t i = 0; i < colours.size(); ++i)
-    selection.add(finder.find(grid, has_background ? &empty : nullptr, ruleOf(i)), static_cast<int>(i), grid);
-  for (const ColouredRegion& region : selection.sorted())
-    observation.centroids[static_cast<std::size_t>(observation.count++)] = locate(region, grid);
-  observation.truncated = selection.truncated();
+    selection.add(finder.find(grid, has_background ? &empty : nullptr, ruleOf(i),
+                              ignored_areas.empty() ? nullptr : &ignored, nullptr, windows),
+                  static_cast<int>(i), grid);
+}
+
+void Extractor::Workspace::adaptBackground(const ImageView& image) {
+  if (options.background_rows == 0) return;
+  BackgroundModel::KeptOut kept_out;
+  if (const auto found = selection.sorted(); !found.empty()) {
+    kept_out = {width, height, -1, -1};
+    for (const auto& [region, colour] : found)
+      kept_out = {std::min(kept_out.left, region.left), std::min(kept_out.top, region.top),
+                  std::max(kept_out.right, region.right), std::max(kept_out.bottom, region.bottom)};
+    const auto size = static_cast<int>(cellSize(CellGrid(image)));
+    const int around =
+        kAround + size * std::max(kept_out.right - kept_out.left, kept_out.bottom - kept_out.top) / 2;
+    kept_out = {size * kept_out.left - around, size * kept_out.top - around,
+                size * (kept_out.right + 1) + around, size * (kept_out.bottom + 1) + around};
+  }
+  background.adapt(image, options.background_rows, options.background_threshold, kept_out);
 }
 
 Centroid Extractor::Workspace::locate(const ColouredRegion& region, const CellGrid& grid) {
@@ -108,6 +155,22 @@ bool Extractor::hasBackground() const {
   return workspace_->background.state() == BackgroundModel::State::kReady;
 }
 
+void Extractor::setIgnoredAreas(const IgnoredAreas& areas) {
+  workspace_->ignored_areas = areas;
+  workspace_->format.reset();
+}
+void Extractor::setColours(const MarkerColours& colours) {
+  workspace_->colours = colours.ranges;
+  workspace_->format.reset();
+}
+
+void Extractor::expect(const BallPredictions& predictions) {
+  workspace_->predictions = predictions;
+}
+bool Extractor::readWhole() const {
+  return workspace_->since_whole == 0;
+}
+
 void Extractor::extract(const ImageView& image, Observation& observation) {
   const TimeNs start = threadCpuTime();
   Workspace& work = *workspace_;
@@ -115,7 +178,10 @@ void Extractor::extract(const ImageView& image, Observation& observation) {
   work.background.update(image);
   observation.count = 0;
   observation.truncated = false;
-  if (work.background.state() != BackgroundModel::State::kTaking) work.findMarkers(image, observation);
+  if (work.background.state() != BackgroundModel::State::kTaking) {
+    work.findMarkers(image, observation);
+    work.adaptBackground(image);
+  }
   observation.extraction = threadCpuTime() - start;
 }
 

@@ -26,7 +26,9 @@ void checkOdd(const char* key, int value) {
               "give an odd number of pixels; 1 switches it off");
 }
 
-void validateRange(const ColourRange& c) {
+}  // namespace
+
+void validate(const ColourRange& c) {
   checkRange("hue_low", c.hue_low, 0, 179);
   checkRange("hue_high", c.hue_high, 0, 179);
   checkRange("saturation_low", c.saturation_low, 0, 255);
@@ -37,13 +39,13 @@ void validateRange(const ColourRange& c) {
   checkOrder("value_low", c.value_low, "value_high", c.value_high);
 }
 
-}  // namespace
-
 void validate(const MarkerOptions& o) {
-  validateRange(o);
-  for (const ColourRange& colour : o.other_colours) validateRange(colour);
+  validate(static_cast<const ColourRange&>(o));
+  for (const ColourRange& colour : o.other_colours) validate(colour);
   checkRange("background_threshold", o.background_threshold, 0, 255);
   checkRange("background_frames", o.background_frames, 1, 10000);
+  checkRange("background_rows", o.background_rows, 0, 10000);
+  checkRange("whole_every", o.whole_every, 1, 10000);
   checkOdd("opening_px", o.opening_px);
   checkOdd("closing_px", o.closing_px);
   checkRange("minimum_area_px", o.minimum_area_px, 1, 1'000'000'000);

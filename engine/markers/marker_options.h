@@ -27,6 +27,8 @@ struct MarkerOptions : ColourRange {
   std::vector<ColourRange> other_colours;  ///< looked for each by itself; `Centroid::colour` says which
   int background_threshold = 20;  ///< largest channel difference from the background that still is background
   int background_frames = 8;      ///< averaged into the background at start
+  int background_rows = 2;  ///< of the background that follow the light after each frame, in turn; 0: none
+  int whole_every = 15;           ///< frames, of which one is read as a whole; 1: each
   int opening_px = 3;             ///< side of the square structuring element; 1 switches the step off
   int closing_px = 3;
   int minimum_area_px = 9;
@@ -36,7 +38,8 @@ struct MarkerOptions : ColourRange {
   double centroid_sigma_px = 0.10;
 };
 
-/// Throws Error(kInput) with the offending key when a value is out of its range.
+/// Throw Error(kInput) with the offending key when a value is out of its range.
+void validate(const ColourRange& colour);
 void validate(const MarkerOptions& options);
 
 }  // namespace helical

@@ -23,8 +23,11 @@ void RegionFinder::resize(int width, int height) {
 }
 
 std::span<Region> RegionFinder::find(const CellGrid& frame, const CellGrid* background, const CellRule& rule,
-                                     const BinaryMask* ignored, BinaryMask* mask) {
-  const Task task{frame, background, rule, ignored, mask};
+                                     const BinaryMask* ignored, BinaryMask* mask,
+                                     std::span<const WordRect> windows) {
+  const WordRect everywhere = first_.everywhere();
+  const Task task{frame, background, rule, ignored, mask,
+                  windows.empty() ? std::span(&everywhere, 1) : windows};
   labeller_.clear();
   if (mask != nullptr) mask->clear(mask->everywhere());
   const bool done = findSparsely(task);
@@ -34,7 +37,9 @@ std::span<Region> RegionFinder::find(const CellGrid& frame, const CellGrid* back
 }
 
 bool RegionFinder::findSparsely(const Task& task) {
-  if (!scanRows(task)) return false;
+  if (!std::all_of(task.windows.begin(), task.windows.end(),
+                   [&](const WordRect& window) { return scanRows(task, window); }))
+    return false;
   if (hit_count_ == 0) return true;
   fetchAround(task);
   const std::span hits(hits_.data(), hit_count_);
@@ -48,17 +53,21 @@ bool RegionFinder::findSparsely(const Task& task) {
   return true;
 }
 
-bool RegionFinder::scanRows(const Task& task) {
+bool RegionFinder::scanRows(const Task& task, const WordRect& window) {
   const int words = first_.wordsPerRow(), height = first_.height(), step = 2 * opening_reach_ + 1;
   const int last = std::max(0, height - 1 - opening_reach_);
   const std::size_t most =
       static_cast<std::size_t>(words) * static_cast<std::size_t>(height / step + 1) / kDenseShare;
-  for (int y = std::min(opening_reach_, last);; y = std::min(y + step, last)) {
-    hit_count_ += static_cast<std::size_t>(findCandidates(task.frame, task.rule, y, std::min(y + step, last),
-                                                          0, words, hits_.data() + hit_count_));
+  const auto rowAfter = [&](int y) { return std::min(y + step, last); };
+  int y = std::min(opening_reach_, last);
+  while (y < window.top && y < last) y = rowAfter(y);
+  for (; y <= window.bottom; y = rowAfter(y)) {
+    hit_count_ += static_cast<std::size_t>(findCandidates(task.frame, task.rule, y, rowAfter(y), window.left,
+                                                          window.right + 1, hits_.data() + hit_count_));
     if (hit_count_ > most) return false;
-    if (y == last) return true;
+    if (y == last) break;
   }
+  return true;
 }
 
 void RegionFinder::fetchAround(const Task& task) const {

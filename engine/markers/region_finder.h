@@ -15,7 +15,8 @@ namespace helical {
 /// An opening with a square of side k keeps full k x k squares only, and each of these crosses exactly one of
 /// the rows k/2, k/2 + k, ...: only those rows are read; around runs of k cells in them, the k - 1 rows above
 /// and below are, in the words that the run touches. What was found there is worked on in small rectangles
-/// that cannot influence each other. Where there is too much of it, all rows are classified and the whole
+/// that cannot influence each other. Of windows, only what lies in them is read: regions that do not come
+/// near a window's edge are those of the whole image. Where there is too much of it, all rows are classified and the whole
 /// mask is worked on: slower for little, faster for much, equal in its result. Allocates in `resize` only.
 /// One thread.
 class RegionFinder {
@@ -26,9 +27,14 @@ class RegionFinder {
   void resize(int width, int height);
 
   /// Regions of the cells that `rule` takes and that `ignored`, if given, does not hold; in no particular
-  /// order, valid until the next call. `mask`, if given, becomes the mask after opening and closing.
+  /// order, valid until the next call. `windows`, which must not overlap, are read only; without any,
+  /// everything. `mask`, if given, becomes the mask after opening and closing.
   std::span<Region> find(const CellGrid& frame, const CellGrid* background, const CellRule& rule,
-                         const BinaryMask* ignored = nullptr, BinaryMask* mask = nullptr);
+                         const BinaryMask* ignored = nullptr, BinaryMask* mask = nullptr,
+                         std::span<const WordRect> windows = {});
+
+  /// Cells around a region that opening and closing decide about it by, and from which its parts may be seen.
+  int border() const { return 2 * opening_reach_ + 2 * closing_reach_ + 2; }
 
  private:
   struct Task {
@@ -37,11 +43,12 @@ class RegionFinder {
     const CellRule& rule;
     const BinaryMask* ignored;
     BinaryMask* mask;
+    std::span<const WordRect> windows;
   };
 
   bool findSparsely(const Task& task);
   void findDensely(const Task& task);
-  bool scanRows(const Task& task);
+  bool scanRows(const Task& task, const WordRect& window);
   void fetchAround(const Task& task) const;
   bool expandHits();
   bool expand(const CellWord& hit);

@@ -205,6 +205,8 @@ void Engine::Implementation::tick(TimeNs now) {
   commands.kill = output.stopped();
   takeCalibrations(now);
   output.submit(loop.onTick(now, commands), now);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    hardware.orders[i]->expect(loop.expectedBalls(cameraId(static_cast<int>(i))));
 
   EngineSnapshot& snapshot = newest.back();
   snapshot = loop.snapshot();
@@ -370,6 +372,19 @@ void Engine::setBoards(CameraId camera, const WhiteBoards& boards) {
   channel.back() = boards;
   channel.publish();
   implementation_->boards[index] = boards.count;
+}
+
+void Engine::setIgnoredAreas(CameraId camera, const IgnoredAreas& areas) {
+  implementation_->hardware.orders[static_cast<std::size_t>(camera.index())]->ignore(areas);
+}
+
+void Engine::takeBackground(CameraId camera) {
+  implementation_->hardware.orders[static_cast<std::size_t>(camera.index())]->takeBackground();
+}
+
+void Engine::setMarkerColours(const std::vector<ColourRange>& colours) {
+  const MarkerColours built(colours);
+  for (const auto& orders : implementation_->hardware.orders) orders->seek(built);
 }
 
 void Engine::setCalibrator(const std::string& method) {

@@ -42,6 +42,13 @@ class Engine final : public FlightView {
   /// Orders of the reading thread; wait-free for the engine.
   /// All boards before a camera from now on, for real cameras too: its frames show them.
   void setBoards(CameraId camera, const WhiteBoards& boards);
+  /// No marker is looked for in these areas of a camera's image, in place of the rig file's.
+  void setIgnoredAreas(CameraId camera, const IgnoredAreas& areas);
+  /// The field that this camera sees is empty now: that is its background.
+  void takeBackground(CameraId camera);
+  /// All cameras look for these colours, the base's first, in place of the rig file's. Throws Error(kInput)
+  /// for what is no range of colours. Takes a tenth of a second.
+  void setMarkerColours(const std::vector<ColourRange>& colours);
   /// Cameras that learn their pose start anew from their first guess with this method, and leave the control
   /// set until they are admitted again; the others will use it once they are knocked. Throws Error(kInput)
   /// for an unknown one.

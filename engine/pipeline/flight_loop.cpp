@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/clock.h"
+#include "engine/pipeline/ball_forecast.h"
 
 namespace helical {
 namespace {
@@ -118,6 +119,13 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
     camera.calibration_bound = control_set_.bound(id);
     camera.knocks_found = control_set_.knocksFound(id);
   }
+}
+
+BallPredictions FlightLoop::expectedBalls(CameraId camera) const {
+  const auto index = static_cast<std::size_t>(camera.index());
+  if (!snapshot_.pose_known || !control_set_.usable()[index]) return {};
+  return forecastBalls(snapshot_.tracked, control_set_.estimates()[index], rig_.cameras[index].model,
+                       rig_.markers_in_body);
 }
 
 void FlightLoop::measureRates(TimeNs now) {

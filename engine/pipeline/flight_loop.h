@@ -5,6 +5,7 @@
 #include "engine/base/latency_histogram.h"
 #include "engine/config/rig_config.h"
 #include "engine/flight/autopilot.h"
+#include "engine/markers/ball_prediction.h"
 #include "engine/pipeline/control_set.h"
 #include "engine/pipeline/snapshot.h"
 #include "engine/tracking/tracker.h"
@@ -32,6 +33,10 @@ class FlightLoop {
     control_set_.swapCalibration(camera, calibration);
   }
   const CameraCalibration* calibration(CameraId camera) const { return control_set_.calibration(camera); }
+
+  /// Where a camera of the control set should see the balls, after the last tick; nothing while that is not
+  /// known.
+  BallPredictions expectedBalls(CameraId camera) const;
 
   /// State after the last tick.
   const EngineSnapshot& snapshot() const { return snapshot_; }

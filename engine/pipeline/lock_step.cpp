@@ -35,6 +35,8 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   OperatorCommands gated = commands;
   gated.kill = output_.stopped();
   output_.submit(loop_.onTick(now, gated), now);
+  for (std::size_t i = 0; i < hardware_.orders.size(); ++i)
+    hardware_.orders[i]->expect(loop_.expectedBalls(cameraId(static_cast<int>(i))));
   output_.step(now);
   snapshot_ = loop_.snapshot();
   hardware_.addTruth(snapshot_, now);

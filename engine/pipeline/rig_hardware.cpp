@@ -1,6 +1,7 @@
 #include "engine/pipeline/rig_hardware.h"
 
 #include "engine/base/error.h"
+#include "engine/markers/ignoring_source.h"
 #include "engine/simulator/disturbed_source.h"
 #include "engine/simulator/random_streams.h"
 #include "engine/simulator/simulated_camera.h"
@@ -47,6 +48,8 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
     const CameraId id = cameraId(static_cast<int>(i));
     const RigidTransform truth = trueCameraFromWorld(rig, id);
     hardware.boards.push_back(std::make_shared<WhiteBoardsChannel>());
+    hardware.orders.push_back(std::make_shared<ExtractorOrders>());
+    hardware.orders.back()->ignore(camera.ignored_areas);
     hardware.disturbances.emplace_back(id, rig.simulation, truth,
                                        randomStream(rig.simulation.seed, RandomStream::kKnocks, id));
     if (rig.simulation.images) {
@@ -54,15 +57,17 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
                                                       rig.marker_options.background_frames, rig.simulation,
                                                       hardware.world, clock);
       auto boarded = std::make_unique<BoardedCamera>(std::move(source), hardware.boards.back());
-      auto extracted = std::make_unique<ExtractingSource>(std::move(boarded), rig.marker_options, tap);
+      auto extracted = std::make_unique<ExtractingSource>(std::move(boarded), rig.marker_options, tap,
+                                                          hardware.orders.back(), camera.model);
       hardware.sources.push_back(
           std::make_unique<DisturbedSource>(std::move(extracted), camera.model, rig.simulation));
     } else {
       auto source =
           std::make_unique<SimulatedObserver>(id, camera.model, truth, rig.markers_in_body,
                                               rig.marker_options, rig.simulation, hardware.world, clock);
+      auto boarded = std::make_unique<BoardedObserver>(std::move(source), hardware.boards.back());
       hardware.sources.push_back(
-          std::make_unique<BoardedObserver>(std::move(source), hardware.boards.back()));
+          std::make_unique<IgnoringSource>(std::move(boarded), hardware.orders.back()));
     }
   }
   hardware.transmitter = std::make_unique<SimulatedTransmitter>(rig.simulation, hardware.world);

@@ -24,6 +24,7 @@ struct RigHardware {
   std::unique_ptr<Transmitter> transmitter;
   std::shared_ptr<World> world;
   std::vector<std::shared_ptr<WhiteBoardsChannel>> boards;  ///< one per camera
+  std::vector<std::shared_ptr<ExtractorOrders>> orders;     ///< one per camera
   std::vector<CameraDisturbances> disturbances;             ///< of simulated cameras: where they truly are
 
   /// Adds the truth of a simulated rig to a snapshot taken at `now`; leaves that of a real one alone.

@@ -46,6 +46,18 @@ TEST(RigFile, TakesTheRationalModelAndACovariance) {
   EXPECT_ANY_THROW(parseRig(replaced(rig, "covariance = [1e-4", "covariance = [-1e-4"), "bad.toml"));
 }
 
+TEST(RigFile, TakesAreasThatAreToBeIgnored) {
+  EXPECT_TRUE(parseRig(goodRig(), "r").cameras[0].ignored_areas.empty());
+  const RigConfig rig = parseRig(
+      replaced(goodRig(), "size =",
+               "ignored_areas_px = [[[0, 0], [99.5, 0], [0, 50]], [[9, 9], [8, 9], [8, 8], [9, 8]]]\nsize ="),
+      "r");
+  const IgnoredAreas& areas = rig.cameras[0].ignored_areas;
+  ASSERT_EQ(areas.size(), 2U);
+  EXPECT_EQ(areas[0], (Polygon{{0.0, 0.0}, {99.5, 0.0}, {0.0, 50.0}}));
+  EXPECT_EQ(areas[1].size(), 4U);
+}
+
 TEST(RigFile, WhatTheFileLeavesOutStaysAtItsDefault) {
   const RigConfig rig = parseRig(goodRig(), "good.toml");
   EXPECT_EQ(rig.marker_options.hue_high, MarkerOptions().hue_high);

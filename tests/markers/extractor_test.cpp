@@ -46,6 +46,7 @@ void expectSame(const Observation& a, const Observation& b) {
 MarkerOptions binaryOptions() {
   MarkerOptions options;
   options.estimator = CentroidEstimator::kBinary;
+  options.background_rows = 0;  // the reference knows no such thing
   return options;
 }
 

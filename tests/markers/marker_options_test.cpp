@@ -25,6 +25,8 @@ TEST(MarkerOptions, NamesTheKeyThatIsWrong) {
       {"value_high", [](MarkerOptions& o) { o.value_high = 256; }},
       {"background_threshold", [](MarkerOptions& o) { o.background_threshold = 256; }},
       {"background_frames", [](MarkerOptions& o) { o.background_frames = 0; }},
+      {"background_rows", [](MarkerOptions& o) { o.background_rows = -1; }},
+      {"whole_every", [](MarkerOptions& o) { o.whole_every = 0; }},
       {"opening_px", [](MarkerOptions& o) { o.opening_px = 4; }},
       {"closing_px", [](MarkerOptions& o) { o.closing_px = 17; }},
       {"minimum_area_px", [](MarkerOptions& o) { o.minimum_area_px = 30000; }},

@@ -9,6 +9,7 @@ void addCalibrateCommand(CLI::App& app, int& exit_code) {
   calibrate->require_subcommand(1);
   addCalibrateIntrinsicsCommand(*calibrate, exit_code);
   addCalibrateRigCommand(*calibrate, exit_code);
+  addCalibrateConvertCommand(*calibrate, exit_code);
 }
 
 }  // namespace helical

@@ -2,7 +2,6 @@
 
 import csv
 import glob
-import json
 import math
 import os
 import random
@@ -200,6 +199,84 @@ class Intrinsics(Calibrate):
                 self.assertIn("cure:", result.stderr)
         self.assertEqual(run("calibrate", "intrinsics", self.path("absent.png"), "--board", "9x6", "--square", "1",
                              "--out", self.path("out.toml")).returncode, 2)
+
+
+class Convert(Calibrate):
+    def convert(self, *arguments):
+        return run("calibrate", "convert", *arguments)
+
+    def test_there_and_back(self):
+        rig = RIG.replace("cy = 239.5", "cy = 239.5\ndistortion = [-0.1, 0.02, 0.001, -0.002, 0.0]")
+        rig += "[camera.pose]\nrotation_wxyz = [0.6, 0.0, 0.8, 0.0]\ntranslation_m = [1.0, 2.0, 3.0]\n"
+        rig = rig.replace("\n[[camera]]\nid = 3", "[camera.pose]\nrotation_wxyz = [1.0, 0.0, 0.0, 0.0]\n"
+                          "translation_m = [0.0, 0.0, 0.0]\n\n[[camera]]\nid = 3")
+        original = self.write("rig.toml", rig)
+        for to in ("opencv", "ros"):
+            with self.subTest(to):
+                result = self.convert(original, self.path("one.yaml"), "--to", to, "--camera", 2)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(self.convert(self.path("one.yaml"), self.path("back.toml")).returncode, 0)
+                with open(self.path("back.toml"), "rb") as file:
+                    back = tomllib.load(file)["camera"][0]
+                self.assertEqual(back["intrinsics"], tomllib.loads(rig)["camera"][1]["intrinsics"])
+        result = self.convert(original, self.path("chain.yaml"), "--to", "kalibr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.convert(self.path("chain.yaml"), self.path("back.toml")).returncode, 0)
+        with open(self.path("back.toml"), "rb") as file:
+            self.assertEqual(len(tomllib.load(file)["camera"]), 3)
+
+    def test_files_as_others_write_them(self):
+        opencv = """%YAML:1.0
+---
+image_width: 640
+image_height: 480
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 5.3591573396163199e+02, 0., 3.4228315473308373e+02, 0.,
+       5.3591573396163199e+02, 2.3557082909788173e+02, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [ -2.66e-01, -3.86e-02, 1.78e-03, -2.81e-04, 2.38e-01 ]
+"""
+        kalibr = """cam0:
+  camera_model: pinhole
+  distortion_coeffs: [-0.28, 0.07, 0.0002, 1.8e-05]
+  distortion_model: radtan
+  intrinsics: [458.6, 457.3, 367.2, 248.4]
+  resolution: [752, 480]
+cam1:
+  T_cn_cnm1:
+  - [0.999997, -0.002312, -0.000343, -0.110074]
+  - [0.002317, 0.999898, 0.014090, 0.000399]
+  - [0.000311, -0.014091, 0.999901, -0.000854]
+  - [0.0, 0.0, 0.0, 1.0]
+  camera_model: pinhole
+  distortion_coeffs: [-0.28, 0.07, -0.0001, -3.5e-05]
+  distortion_model: radtan
+  intrinsics: [457.6, 456.1, 379.9, 255.2]
+  resolution: [752, 480]
+"""
+        for text, count, fx in ((opencv, 1, 535.91573396163199), (kalibr, 2, 458.6)):
+            result = self.convert(self.write("in.yaml", text), self.path("out.toml"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path("out.toml"), "rb") as file:
+                cameras = tomllib.load(file)["camera"]
+            self.assertEqual(len(cameras), count)
+            self.assertEqual(cameras[0]["intrinsics"]["fx"], fx)
+        self.assertAlmostEqual(cameras[1]["pose"]["translation_m"][0], -0.110074)
+
+    def test_bad_files(self):
+        for text in ("", "a", "a: 1", "camera_matrix: [1, 2", "camera_matrix: {data: [1, 2, 3]}", "cam0:\n  camera_model: omni\n",
+                     "[" * 200, "- " * 200, "K: [1, 0, 2, 0, 1, 2, 0, 0, 1]\nD: [0, 0]\n", "a: 1\na: 2\n",
+                     "K: [nan, 0, 2, 0, 1, 2, 0, 0, 1]\nD: []\nwidth: 3\nheight: 4\n"):
+            with self.subTest(text[:30]):
+                result = self.convert(self.write("in.yaml", text), self.path("out.toml"))
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn("cure:", result.stderr)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 #include "engine/calibration/intrinsics/board.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/aruco/charuco.hpp>
@@ -15,7 +17,8 @@ namespace {
 
 constexpr int kFewestCharucoCorners = 6;
 constexpr int kLargestSide = 100;
-constexpr int kLargestWindow = 11;  // px to either side of a corner
+constexpr int kLargestWindow = 11;    // px to either side of a corner
+constexpr double kWindowShare = 0.3;  // of the distance to the next corner
 
 constexpr std::array kDictionaries = {std::pair("DICT_4X4_50", cv::aruco::DICT_4X4_50),
                                       std::pair("DICT_4X4_100", cv::aruco::DICT_4X4_100),
@@ -45,13 +48,14 @@ cv::aruco::PREDEFINED_DICTIONARY_NAME dictionaryOf(const std::string& name) {
               "use one of " + known);
 }
 
-/// A quarter of the distance between neighbours: the window must not reach the next corner.
-int windowFor(const std::vector<cv::Point2f>& corners, int columns) {
+/// A window that stays well away from the next corner in any direction: one that touches it is off by pixels.
+int windowFor(const std::vector<cv::Point2f>& corners, std::size_t columns) {
   double nearest = 1e9;
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    if (i % static_cast<std::size_t>(columns) != 0)
-      nearest = std::min(nearest, static_cast<double>(cv::norm(corners[i] - corners[i - 1])));
-  return std::clamp(static_cast<int>(0.45 * nearest), 2, kLargestWindow);
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (i % columns != 0) nearest = std::min(nearest, cv::norm(corners[i] - corners[i - 1]));
+    if (i >= columns) nearest = std::min(nearest, cv::norm(corners[i] - corners[i - columns]));
+  }
+  return std::clamp(static_cast<int>(kWindowShare * nearest), 2, kLargestWindow);
 }
 
 BoardView findChessboard(const cv::Mat& image, const Board& board) {
@@ -63,7 +67,7 @@ BoardView findChessboard(const cv::Mat& image, const Board& board) {
           cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK) &&
       !cv::findChessboardCornersSB(image, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE))
     return view;
-  const int window = windowFor(corners, board.columns);
+  const int window = windowFor(corners, static_cast<std::size_t>(board.columns));
   cv::cornerSubPix(image, corners, cv::Size(window, window), cv::Size(-1, -1),
                    cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 50, 1e-3));
   for (int i = 0; i < board.rows * board.columns; ++i) {

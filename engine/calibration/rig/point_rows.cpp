@@ -24,6 +24,14 @@ struct TextHash {
   std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>()(text); }
 };
 
+/// As much of a field as a message can show.
+std::string shown(std::string_view field) {
+  std::string text(field.substr(0, 40));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
+  return text;
+}
+
 class RowReader {
  public:
   RowReader(const std::filesystem::path& file, std::span<const RigCamera> cameras)
@@ -78,7 +86,7 @@ class RowReader {
     if (parse(name, ignored)) fail("the first line is no header", "begin the file with " + kFormat);
     if (line.find(';') != std::string_view::npos && line.find(',') == std::string_view::npos)
       fail("the columns are separated by semicolons", "separate them by commas, with decimal points");
-    fail("unknown column '" + std::string(name.substr(0, 40)) + "'", "use the columns " + kFormat);
+    fail("unknown column '" + shown(name) + "'", "use the columns " + kFormat);
   }
 
   static bool parse(std::string_view text, double& value) {
@@ -91,7 +99,7 @@ class RowReader {
     const std::string_view text = fields_[static_cast<std::size_t>(column_[column])];
     double value = 0.0;
     if (!parse(text, value))
-      fail("'" + std::string(text.substr(0, 40)) + "' in column " + kNames[column] + " is no number",
+      fail("'" + shown(text) + "' in column " + kNames[column] + " is no number",
            "give a number, with a decimal point");
     if (!std::isfinite(value))
       fail(std::string("the value in column ") + kNames[column] + " is not finite",
@@ -105,7 +113,7 @@ class RowReader {
       if (cameras_[i].label == label) return static_cast<std::int32_t>(i);
     std::string known;
     for (const RigCamera& c : cameras_) known += (known.empty() ? "" : ", ") + c.label;
-    fail("the rig has no camera '" + std::string(label.substr(0, 40)) + "'",
+    fail("the rig has no camera '" + shown(label) + "'",
          "use the rig's ids (" + known + "), and see that the columns stand in the order of the header");
   }
 

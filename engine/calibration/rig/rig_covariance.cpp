@@ -110,7 +110,7 @@ RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> ca
   result.cameras.resize(cameras.size());
   const ReducedSystem system(state, cameras, table);
   const Eigen::Index size = 6 * system.unknown();
-  const Eigen::MatrixXd held = gauge(system, state, distance);
+  const Eigen::MatrixXd held = size > 0 ? gauge(system, state, distance) : Eigen::MatrixXd();
   const double freedom = static_cast<double>(system.freedom - size + held.rows());
   if (freedom <= 0.0) return result;
   result.sigma_px = std::sqrt(system.squares / freedom);

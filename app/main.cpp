@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/calibrate.h"
 #include "app/detect.h"
 #include "app/experiment.h"
 #include "app/export.h"
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
                              {}, "give it behind the sub-command: helical fly --rig FILE");
   });
   helical::addFlyCommand(app, exit_code);
+  helical::addCalibrateCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
   helical::addExperimentCommand(app, exit_code);
   helical::addExportCommand(app, exit_code);

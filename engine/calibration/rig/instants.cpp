@@ -1,0 +1,122 @@
+#include "engine/calibration/rig/instants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace helical {
+namespace {
+
+constexpr double kSameStamp = 2e-6;  // s
+constexpr double kLongestGap = 2.5;  // periods
+constexpr double kUsualSteps = 6.0;
+constexpr double kSmallStepPx = 5.0;
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool sameTrack(const PointRow& a, const PointRow& b) {
+  return a.camera == b.camera && a.marker == b.marker;
+}
+
+/// Steps [px] from each row of a track to its next one.
+double usualStep(const PointRows& rows, std::span<const std::size_t> track) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < track.size(); ++i)
+    steps.push_back((rows.rows[track[i]].pixel - rows.rows[track[i - 1]].pixel).norm());
+  return median(steps);
+}
+
+void interpolateTrack(const PointRows& rows, std::span<const std::size_t> track, double start_s,
+                      double period_s, std::vector<InstantRow>& out) {
+  const double largest_step = std::max(kSmallStepPx, kUsualSteps * usualStep(rows, track));
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    const PointRow &a = rows.rows[track[i - 1]], &b = rows.rows[track[i]];
+    const double gap = b.time_s - a.time_s;
+    if (!(gap > 0.0) || gap > kLongestGap * period_s || (b.pixel - a.pixel).norm() > largest_step) continue;
+    const auto first = static_cast<std::int64_t>(std::ceil((a.time_s - start_s) / period_s));
+    for (std::int64_t k = first;; ++k) {
+      const double time = start_s + static_cast<double>(k) * period_s;
+      if (time >= b.time_s) break;
+      const double share = (time - a.time_s) / gap;
+      InstantRow row;
+      row.row = a;
+      row.row.time_s = time;
+      row.row.pixel = a.pixel + share * (b.pixel - a.pixel);
+      if (!rows.in_body.empty()) row.in_body = rows.in_body[track[i - 1]];
+      row.instant = k;
+      out.push_back(row);
+    }
+  }
+}
+
+}  // namespace
+
+Rhythm rhythmOf(const PointRows& rows, int cameras) {
+  // Rows are in order of time: stamps of a camera, and whether another camera has the same one.
+  std::vector<double> last(static_cast<std::size_t>(cameras), -1e300);
+  std::vector<double> gaps;
+  long frames = 0, shared = 0;
+  std::vector<bool> present(static_cast<std::size_t>(cameras));
+  for (std::size_t i = 0; i < rows.rows.size();) {
+    std::size_t j = i;
+    std::fill(present.begin(), present.end(), false);
+    int count = 0;
+    for (; j < rows.rows.size() && rows.rows[j].time_s - rows.rows[i].time_s <= kSameStamp; ++j) {
+      const auto camera = static_cast<std::size_t>(rows.rows[j].camera);
+      if (present[camera]) continue;
+      present[camera] = true;
+      ++count;
+      if (last[camera] > -1e299) gaps.push_back(rows.rows[j].time_s - last[camera]);
+      last[camera] = rows.rows[j].time_s;
+    }
+    frames += count;
+    shared += count > 1 ? count : 0;
+    i = j;
+  }
+  Rhythm rhythm;
+  rhythm.period_s = median(gaps);
+  rhythm.shared_stamps = frames > 0 ? static_cast<double>(shared) / static_cast<double>(frames) : 0.0;
+  return rhythm;
+}
+
+std::vector<InstantRow> clusterInTime(const PointRows& rows, double window_s) {
+  std::vector<InstantRow> out;
+  out.reserve(rows.rows.size());
+  std::int64_t instant = -1;
+  double start = -1e300;
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const PointRow& row = rows.rows[i];
+    if (row.time_s - start > window_s) {
+      start = row.time_s;
+      ++instant;
+    }
+    out.push_back({row, rows.in_body.empty() ? Eigen::Vector3d::Zero().eval() : rows.in_body[i], instant});
+  }
+  return out;
+}
+
+std::vector<InstantRow> interpolateInTime(const PointRows& rows, double period_s) {
+  std::vector<InstantRow> out;
+  if (rows.rows.empty() || !(period_s > 0.0)) return out;
+  std::vector<std::size_t> order(rows.rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const PointRow &p = rows.rows[a], &q = rows.rows[b];
+    return p.camera != q.camera ? p.camera < q.camera : p.marker < q.marker;
+  });
+  const double start = rows.rows.front().time_s;
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t j = i;
+    while (j < order.size() && sameTrack(rows.rows[order[i]], rows.rows[order[j]])) ++j;
+    interpolateTrack(rows, std::span(order).subspan(i, j - i), start, period_s, out);
+    i = j;
+  }
+  return out;
+}
+
+}  // namespace helical

@@ -1,0 +1,265 @@
+#include "engine/calibration/rig/rig_bundle.h"
+
+#include <ceres/ceres.h>
+
+#include <array>
+
+#include "engine/calibration/rig/sighting_derivatives.h"
+#include "engine/geometry/camera_perturbation.h"
+
+namespace helical {
+namespace {
+
+constexpr double kScaleWeightPx = 100.0;
+constexpr double kUnseenPx = 1000.0;  // stands for a point which the camera model cannot project
+using Block = std::array<double, 7>;  // quaternion x y z w, translation
+
+RigidTransform toTransform(const double* block) {
+  return {Eigen::Map<const Eigen::Quaterniond>(block), Eigen::Map<const Eigen::Vector3d>(block + 4)};
+}
+
+void store(const RigidTransform& transform, double* block) {
+  Eigen::Map<Eigen::Quaterniond>{block} = transform.rotation;
+  Eigen::Map<Eigen::Vector3d>(block + 4) = transform.translation;
+}
+
+/// The six numbers of a pose's perturbation. Costs give their derivatives by those in the first six columns
+/// of the block's seven, which PlusJacobian picks out.
+class PoseManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const final { return 7; }
+  int TangentSize() const final { return 6; }
+  bool PlusJacobian(const double*, double* jacobian) const final {
+    Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+  bool MinusJacobian(const double*, double* jacobian) const final {
+    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+};
+
+class CameraManifold final : public PoseManifold {
+ public:
+  bool Plus(const double* x, const double* delta, double* moved) const override {
+    store(perturbCamera(toTransform(x), Eigen::Map<const Vector6d>(delta)), moved);
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* delta) const override {
+    Eigen::Map<Vector6d>{delta} = cameraPerturbation(toTransform(x), toTransform(y));
+    return true;
+  }
+};
+
+class BodyManifold final : public PoseManifold {
+ public:
+  bool Plus(const double* x, const double* delta, double* moved) const override {
+    const RigidTransform pose = toTransform(x);
+    const Eigen::Map<const Vector6d> d(delta);
+    store({(expSO3(d.head<3>()) * pose.rotation).normalized(), pose.translation + d.tail<3>()}, moved);
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* delta) const override {
+    const RigidTransform to = toTransform(y), from = toTransform(x);
+    Eigen::Map<Vector6d> d(delta);
+    d.head<3>() = logSO3(to.rotation * from.rotation.conjugate());
+    d.tail<3>() = to.translation - from.translation;
+    return true;
+  }
+};
+
+/// Predicted less seen pixel. Parameters: camera, then the point or the body's pose.
+template <int kItemSize>
+class SightingCost final : public ceres::SizedCostFunction<2, 7, kItemSize> {
+ public:
+  SightingCost(const CameraModel& camera, const Sighting& sighting) : camera_(camera), sighting_(sighting) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    constexpr bool kIsBody = kItemSize == 7;
+    const RigidTransform camera_from_world = toTransform(parameters[0]);
+    Eigen::Vector3d point, arm = Eigen::Vector3d::Zero();
+    if constexpr (kIsBody) {
+      const RigidTransform world_from_body = toTransform(parameters[1]);
+      arm = world_from_body.rotation * sighting_.in_body;
+      point = arm + world_from_body.translation;
+    } else {
+      point = Eigen::Map<const Eigen::Vector3d>(parameters[1]);
+    }
+    Eigen::Matrix<double, 2, 3> d_pixel;
+    const auto pixel = camera_.project(camera_from_world * point, &d_pixel);
+    Eigen::Map<Eigen::Vector2d>{residuals} =
+        pixel ? (*pixel - sighting_.pixel).eval() : Eigen::Vector2d::Constant(kUnseenPx);
+    if (jacobians == nullptr) return true;
+    const SightingDerivatives d = sightingDerivatives(camera_from_world, point, arm, d_pixel);
+    if (jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 2, 7, Eigen::RowMajor>> out(jacobians[0]);
+      out.setZero();
+      if (pixel) out.leftCols<6>() = d.camera;
+    }
+    if (jacobians[1] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 2, kItemSize, Eigen::RowMajor>> out(jacobians[1]);
+      out.setZero();
+      if constexpr (kIsBody) {
+        if (pixel) out.template leftCols<6>() = d.body;
+      } else {
+        if (pixel) out = d.point;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const CameraModel& camera_;
+  const Sighting& sighting_;
+};
+
+/// Holds the distance of a camera from a point: the scale that points alone leave open. Without it the normal
+/// equations are singular. Nothing pulls against it, so that its weight does not matter.
+class ScaleCost final : public ceres::SizedCostFunction<1, 7> {
+ public:
+  ScaleCost(const Eigen::Vector3d& from, double distance) : from_(from), distance_(distance) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Vector3d apart = toTransform(parameters[0]).inverseTranslation() - from_;
+    residuals[0] = kScaleWeightPx * (apart.norm() / distance_ - 1.0);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Matrix<double, 1, 7, Eigen::RowMajor>> out(jacobians[0]);
+    out.setZero();
+    out.segment<3>(3) = (kScaleWeightPx / distance_) * apart.normalized().transpose();
+    return true;
+  }
+
+ private:
+  Eigen::Vector3d from_;
+  double distance_;
+};
+
+class Bundle {
+ public:
+  Bundle(RigState& state, std::span<const RigCamera> cameras, const SightingTable& table,
+         const BundleOptions& options)
+      : state_(state),
+        table_(table),
+        options_(options),
+        body_(table.kind == TargetKind::kBody),
+        camera_blocks_(cameras.size()),
+        item_blocks_(static_cast<std::size_t>(table.items)),
+        ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
+    if (options.robust_scale_px > 0.0) loss_ = std::make_unique<ceres::CauchyLoss>(options.robust_scale_px);
+    for (const Sighting& s : table.sightings) addSighting(cameras, s);
+    holdGauge();
+  }
+
+  double solve() {
+    if (problem_.NumResidualBlocks() == 0) return 0.0;
+    ceres::Solver::Options solver;
+    solver.linear_solver_type = ceres::DENSE_SCHUR;
+    solver.linear_solver_ordering = ordering_;
+    solver.max_num_iterations = options_.max_iterations;
+    solver.function_tolerance = 1e-9;
+    solver.num_threads = 1;  // the order of sums, and with it the last bit, depends on it
+    solver.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem_, &summary);
+    if (summary.IsSolutionUsable()) takeOver();
+    return 2.0 * summary.final_cost;
+  }
+
+ private:
+  void addSighting(std::span<const RigCamera> cameras, const Sighting& s) {
+    const auto c = static_cast<std::size_t>(s.camera), i = static_cast<std::size_t>(s.item);
+    const bool known = body_ ? state_.world_from_body[i].has_value() : state_.points[i].has_value();
+    if (!s.inlier || !known || !state_.camera_from_world[c]) return;
+    double *camera = camera_blocks_[c].data(), *item = item_blocks_[i].data();
+    if (!problem_.HasParameterBlock(camera)) {
+      store(*state_.camera_from_world[c], camera);
+      problem_.AddParameterBlock(camera, 7, &camera_manifold_);
+      ordering_->AddElementToGroup(camera, 1);
+      if (state_.fixed[c]) problem_.SetParameterBlockConstant(camera);
+    }
+    if (!problem_.HasParameterBlock(item)) {
+      if (body_)
+        store(*state_.world_from_body[i], item);
+      else
+        Eigen::Map<Eigen::Vector3d>{item} = *state_.points[i];
+      problem_.AddParameterBlock(item, body_ ? 7 : 3, body_ ? &body_manifold_ : nullptr);
+      ordering_->AddElementToGroup(item, 0);
+      if (options_.only_cameras) problem_.SetParameterBlockConstant(item);
+    }
+    ceres::CostFunction* cost = nullptr;
+    if (body_)
+      cost = new SightingCost<7>(cameras[c].model, s);
+    else
+      cost = new SightingCost<3>(cameras[c].model, s);
+    problem_.AddResidualBlock(cost, loss_.get(), camera, item);
+  }
+
+  void holdGauge() {
+    if (options_.only_cameras) return;
+    int fixed = 0;
+    std::optional<std::size_t> held;
+    for (std::size_t c = 0; c < camera_blocks_.size(); ++c) {
+      if (!problem_.HasParameterBlock(camera_blocks_[c].data())) continue;
+      fixed += state_.fixed[c] ? 1 : 0;
+      if (!held || (state_.fixed[c] && !state_.fixed[*held])) held = c;
+    }
+    if (!held) return;
+    problem_.SetParameterBlockConstant(camera_blocks_[*held].data());
+    if (!body_ && fixed < 2) holdScale(*held);
+  }
+
+  void holdScale(std::size_t from) {
+    const Eigen::Vector3d centre = state_.camera_from_world[from]->inverseTranslation();
+    double* farthest = nullptr;
+    double distance = 1e-9;
+    for (std::size_t c = 0; c < camera_blocks_.size(); ++c) {
+      if (!problem_.HasParameterBlock(camera_blocks_[c].data())) continue;
+      const double apart = (state_.camera_from_world[c]->inverseTranslation() - centre).norm();
+      if (apart <= distance) continue;
+      distance = apart;
+      farthest = camera_blocks_[c].data();
+    }
+    if (farthest != nullptr) problem_.AddResidualBlock(new ScaleCost(centre, distance), nullptr, farthest);
+  }
+
+  void takeOver() {
+    for (std::size_t c = 0; c < camera_blocks_.size(); ++c)
+      if (problem_.HasParameterBlock(camera_blocks_[c].data()) && !state_.fixed[c])
+        state_.camera_from_world[c] = toTransform(camera_blocks_[c].data());
+    for (std::size_t i = 0; i < item_blocks_.size(); ++i) {
+      const double* block = item_blocks_[i].data();
+      if (!problem_.HasParameterBlock(block)) continue;
+      if (body_)
+        state_.world_from_body[i] = toTransform(block);
+      else
+        state_.points[i] = Eigen::Map<const Eigen::Vector3d>(block);
+    }
+  }
+
+  static ceres::Problem::Options problemOptions() {
+    ceres::Problem::Options options;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+
+  RigState& state_;
+  const SightingTable& table_;
+  BundleOptions options_;
+  bool body_;
+  CameraManifold camera_manifold_;
+  BodyManifold body_manifold_;
+  std::unique_ptr<ceres::LossFunction> loss_;
+  std::vector<Block> camera_blocks_, item_blocks_;
+  ceres::Problem problem_{problemOptions()};
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+};
+
+}  // namespace
+
+double adjustBundle(RigState& state, std::span<const RigCamera> cameras, const SightingTable& table,
+                    const BundleOptions& options) {
+  return Bundle(state, cameras, table, options).solve();
+}
+
+}  // namespace helical

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/calibration/rig/point_rows.h"
+#include "engine/calibration/rig/rig_camera.h"
+#include "engine/calibration/rig/sightings.h"
+#include "engine/geometry/camera_estimate.h"
+
+namespace helical {
+
+/// Two cameras (indices) and how far apart their centres are.
+struct KnownDistance {
+  std::size_t a = 0, b = 0;
+  double metres = 0.0;
+};
+
+struct RigCalibrationOptions {
+  std::optional<KnownDistance> scale;
+};
+
+enum class Verdict { kGood, kUsable, kBad };
+const char* nameOf(Verdict verdict);
+
+struct CalibratedCamera {
+  std::string label;
+  bool given = false;                               ///< its pose was given and stands
+  std::optional<RigidTransform> camera_from_world;  ///< nothing: it could not be placed
+  std::optional<Matrix6d> covariance;               ///< of CameraEstimate's perturbation
+  double reprojection_rms_px = 0.0;                 ///< length of the residual, over the inliers
+  long observations = 0;                            ///< sightings that took part, rejected ones included
+  long rejected = 0;
+  double position_sigma_m = 0.0;  ///< largest axis
+  double orientation_sigma_deg = 0.0;
+  double distance_m = 0.0;  ///< median, to what it saw
+  int image_parts = 0;      ///< of 16 parts of the image, those with inliers
+};
+
+struct RigCalibration {
+  Verdict verdict = Verdict::kBad;
+  std::vector<std::string> reasons;  ///< why the verdict is not better
+  bool metric = false;               ///< else the unit of length is arbitrary
+  std::string scale_from;
+  std::string world;  ///< which frame poses are in
+  TargetKind target = TargetKind::kLight;
+  Timing timing = Timing::kTogether;
+  int items = 0;  ///< points or body poses that took part
+  int thinned_by = 1;
+  long unmatched = 0;
+  double sigma_px = 0.0;         ///< of a pixel, per axis
+  double given_off_deg = 0.0;    ///< how far given poses and the recording disagree
+  double given_off_share = 0.0;  ///< the same of places, over the distance to what was seen
+  std::vector<CalibratedCamera> cameras;
+};
+
+/// Every pose that `cameras` leave out, from a recording. World: that of given poses, else the first camera's
+/// frame. Scale: two or more given poses, body coordinates, `options.scale`, else arbitrary. Throws
+/// Error(kInput) for scales that contradict each other and recordings without rows of the same time;
+/// everything else that is wrong with a recording makes the verdict bad. Repeats bit for bit.
+RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, const std::string& file,
+                            const RigCalibrationOptions& options, const ProgressCallback& progress = {});
+
+}  // namespace helical

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/calibration/rig/rig_calibration.h"
+#include "engine/calibration/rig/rig_state.h"
+
+namespace helical {
+
+/// Covariance of each solved camera's perturbation (CameraEstimate's), the points or body poses marginalised,
+/// from the inliers and the scatter of their residuals. Fixed cameras have none. Without fixed cameras the
+/// first solved one is the frame and exact; `distance` (of whichever two cameras) is exact, too, where the
+/// scale is not measured. Empty where the recording leaves a camera open.
+struct RigCovariance {
+  std::vector<std::optional<Matrix6d>> cameras;
+  double sigma_px = 0.0;  ///< per axis, by the sum of squares
+};
+
+RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> cameras,
+                            const SightingTable& table, const std::optional<KnownDistance>& distance);
+
+}  // namespace helical

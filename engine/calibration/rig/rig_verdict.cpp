@@ -1,0 +1,114 @@
+#include "engine/calibration/rig/rig_verdict.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace helical {
+namespace {
+
+// Residuals [share of the image's width]: 1.6 and 5 px at 640.
+constexpr double kGoodRms = 0.0025, kUsableRms = 0.008;
+// Standard deviation of a camera's place over its distance to what it saw.
+constexpr double kGoodPlace = 0.005, kUsablePlace = 0.03;
+constexpr double kGoodRejected = 0.15, kUsableRejected = 0.5;
+constexpr long kGoodObservations = 60, kUsableObservations = 20;
+constexpr int kGoodParts = 4;  // of 16
+constexpr double kGoodGivenDeg = 0.5, kUsableGivenDeg = 2.0;
+constexpr double kGoodGivenShare = 0.01, kUsableGivenShare = 0.05;
+
+std::string number(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+class Judge {
+ public:
+  explicit Judge(RigCalibration& calibration) : calibration_(calibration) {
+    calibration.verdict = Verdict::kGood;
+  }
+
+  /// The worse of the verdict so far and what `value` deserves by two limits.
+  void limit(double value, double good, double usable, const std::string& reason) {
+    if (value <= good) return;
+    reasonFor(value <= usable ? Verdict::kUsable : Verdict::kBad, reason);
+  }
+
+  void reasonFor(Verdict verdict, const std::string& reason) {
+    calibration_.verdict = std::max(calibration_.verdict, verdict);
+    calibration_.reasons.push_back(reason);
+  }
+
+ private:
+  RigCalibration& calibration_;
+};
+
+void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camera, bool metric) {
+  const std::string who = "camera " + c.label;
+  if (c.observations == 0 && !c.given)
+    return judge.reasonFor(Verdict::kBad,
+                           who +
+                               " shares no observation with another camera: record with the target "
+                               "where it and another one see it at once");
+  if (!c.camera_from_world)
+    return judge.reasonFor(
+        Verdict::kBad,
+        who +
+            " cannot be placed: too few of its observations agree with those of placed cameras; "
+            "record with the target where it and two others see it at once");
+  if (c.observations == 0) return;  // a given camera that saw nothing harms nothing
+  const long inliers = c.observations - c.rejected;
+  judge.limit(static_cast<double>(-inliers), -kGoodObservations, -kUsableObservations,
+              who + " has " + std::to_string(inliers) + " good observations only: record more");
+  judge.limit(
+      static_cast<double>(c.rejected) / static_cast<double>(c.observations), kGoodRejected, kUsableRejected,
+      std::to_string(c.rejected) + " of " + std::to_string(c.observations) + " observations of " + who +
+          " were rejected: something else than the target was seen, or its intrinsics are wrong");
+  judge.limit(c.reprojection_rms_px / camera.model.width(), kGoodRms, kUsableRms,
+              who + " misses by " + number(c.reprojection_rms_px, 2) +
+                  " px rms: see to its intrinsics, its focus, and that clocks and columns are right");
+  if (c.image_parts < kGoodParts)
+    judge.reasonFor(Verdict::kUsable, who + " saw the target in " + std::to_string(c.image_parts) +
+                                          " of 16 parts of its image only: move it through the whole image");
+  if (c.given) return;
+  if (!c.covariance)
+    return judge.reasonFor(Verdict::kBad, "the recording leaves the place of " + who +
+                                              " open: move the target in depth and sideways");
+  judge.limit(
+      c.position_sigma_m / std::max(1e-9, c.distance_m), kGoodPlace, kUsablePlace,
+      who + "'s place is known to " + number(100.0 * c.position_sigma_m / std::max(1e-9, c.distance_m), 1) +
+          " % of its distance only" + (metric ? " (" + number(1e3 * c.position_sigma_m, 1) + " mm)" : "") +
+          ": record longer and through more of the space");
+}
+
+}  // namespace
+
+void judge(RigCalibration& calibration, std::span<const RigCamera> cameras) {
+  Judge judge(calibration);
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    judgeCamera(judge, calibration.cameras[i], cameras[i], calibration.metric);
+  const std::string off = "the given poses disagree with the recording by " +
+                          number(calibration.given_off_deg, 2) + " degrees and " +
+                          number(100.0 * calibration.given_off_share, 1) + " % of the distance";
+  const std::string cure = ": remove [camera.pose] of the one that was moved";
+  if (calibration.given_off_deg > kGoodGivenDeg || calibration.given_off_share > kGoodGivenShare)
+    judge.reasonFor(
+        calibration.given_off_deg > kUsableGivenDeg || calibration.given_off_share > kUsableGivenShare
+            ? Verdict::kBad
+            : Verdict::kUsable,
+        off + cure);
+}
+
+const char* nameOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return "good";
+    case Verdict::kUsable:
+      return "usable";
+    case Verdict::kBad:
+      return "bad";
+  }
+  return "";
+}
+
+}  // namespace helical

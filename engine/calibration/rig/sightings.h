@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/calibration/rig/point_rows.h"
+#include "engine/calibration/rig/rig_camera.h"
+
+namespace helical {
+
+/// What a recording shows.
+enum class TargetKind {
+  kBody,          ///< points known in a body's frame: a board, the helicopter
+  kMarkers,       ///< named points that move
+  kStillMarkers,  ///< named points that stand still
+  kLight,         ///< one waved light
+};
+
+const char* nameOf(TargetKind kind);
+
+/// One camera's view of one point.
+struct Sighting {
+  std::int32_t item = 0;  ///< a body's pose at one time, or a point at one time
+  std::int32_t camera = 0;
+  std::int32_t marker = 0;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d bearing = Eigen::Vector2d::Zero();  ///< x/z, y/z
+  Eigen::Vector3d in_body = Eigen::Vector3d::Zero();  ///< metres; of a body's point
+  bool inlier = false;
+};
+
+/// How rows of cameras that were not exposed at the same instants are brought together.
+enum class Timing {
+  kTogether,     ///< rows of the same time stamp, or as near as clocks tell
+  kInterpolated  ///< every camera's track is interpolated to common instants
+};
+
+/// Rows brought together: sightings of the same item belong to each other. Sorted by item, then camera.
+struct SightingTable {
+  TargetKind kind = TargetKind::kLight;
+  Timing timing = Timing::kTogether;
+  int items = 0;
+  std::vector<Sighting> sightings;
+  std::vector<double> item_time_s;
+  long unmatched = 0;           ///< rows that no other camera has a counterpart for
+  std::vector<long> ambiguous;  ///< of each camera: rows beside another one of the same marker and instant
+  int thinned_by = 1;           ///< every how many-th item was kept
+};
+
+/// Tables of one recording, the more likely one first: with equal time stamps in most rows there is one, else
+/// one of each timing. Throws Error(kInput) when no two cameras have rows of the same time.
+std::vector<SightingTable> bringTogether(PointRows rows, std::span<const RigCamera> cameras,
+                                         const std::string& file);
+
+}  // namespace helical

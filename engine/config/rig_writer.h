@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/geometry/camera_estimate.h"
+#include "engine/geometry/camera_model.h"
+#include "engine/geometry/rigid_transform.h"
+
+namespace helical {
+
+/// A pose to put into a rig file.
+struct WrittenPose {
+  std::string label;
+  RigidTransform camera_from_world;
+  std::optional<Matrix6d> covariance;
+};
+
+/// The rig `toml` with these poses in place of its cameras' [camera.pose]; everything else stays as it is,
+/// but for comments. `header` lines become the comment at the top. `name` stands for the file in messages.
+std::string rigWithPoses(std::string_view toml, const std::string& name, std::span<const WrittenPose> poses,
+                         std::string_view header);
+
+/// A rig of cameras that have intrinsics and, maybe, poses.
+struct WrittenCamera {
+  std::string label;
+  CameraModel model;
+  std::optional<RigidTransform> camera_from_world;
+};
+std::string rigOfCameras(std::span<const WrittenCamera> cameras, std::string_view header);
+
+/// Writes a text file as a whole: into a new one that takes its place when it is complete. Throws Error
+/// saying what is wrong with the place.
+void writeTextFile(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace helical

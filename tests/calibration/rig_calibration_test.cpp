@@ -1,0 +1,244 @@
+#include "engine/calibration/rig/rig_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/geometry/camera_perturbation.h"
+#include "tests/calibration/rig_recording.h"
+
+namespace helical {
+namespace {
+
+std::vector<std::optional<RigidTransform>> posesOf(const RigCalibration& calibration) {
+  std::vector<std::optional<RigidTransform>> poses;
+  for (const CalibratedCamera& c : calibration.cameras) poses.push_back(c.camera_from_world);
+  return poses;
+}
+
+RigCalibration solve(const std::vector<RigCamera>& cameras, const PointRows& rows,
+                     const RigCalibrationOptions& options = {}) {
+  return calibrateRig(cameras, rows, "made up", options);
+}
+
+std::string reasonsOf(const RigCalibration& calibration) {
+  std::string all;
+  for (const std::string& reason : calibration.reasons) all += reason + "\n";
+  return all;
+}
+
+TEST(RigCalibration, BoardSetsPosesAndScale) {
+  RecordingOptions recording;
+  recording.duration_s = 4.0;
+  const MadeRecording made = wavedBoard(recording, 11);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.verdict, Verdict::kGood) << reasonsOf(solved);
+  EXPECT_EQ(solved.target, TargetKind::kBody);
+  EXPECT_TRUE(solved.metric);
+  const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), false);
+  EXPECT_LT(errors.degrees, 0.1);
+  EXPECT_LT(errors.metres, 0.005);
+  EXPECT_NEAR(solved.sigma_px, 0.5, 0.03);
+}
+
+TEST(RigCalibration, NamedMarkersGiveShapeButNoScale) {
+  RecordingOptions recording;
+  recording.duration_s = 5.0;
+  const MadeRecording made = namedMarkers(recording, 12);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.verdict, Verdict::kGood) << reasonsOf(solved);
+  EXPECT_EQ(solved.target, TargetKind::kMarkers);
+  EXPECT_FALSE(solved.metric);
+  const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), true);
+  EXPECT_LT(errors.degrees, 0.1);
+  EXPECT_LT(errors.metres, 0.01);
+}
+
+TEST(RigCalibration, MarkersThatStandStillAreOnePointEach) {
+  const MadeRecording made = stillMarkers({}, 13);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.target, TargetKind::kStillMarkers);
+  EXPECT_EQ(solved.items, 60);
+  EXPECT_NE(solved.verdict, Verdict::kBad) << reasonsOf(solved);
+  EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.02);
+}
+
+TEST(RigCalibration, WavedLightWithOutliersThatAreRejectedAndCounted) {
+  for (const double outliers : {0.1, 0.3}) {
+    RecordingOptions recording;
+    recording.duration_s = 30.0;
+    recording.outliers = outliers;
+    const MadeRecording made = wavedLight(recording, 14);
+    const RigCalibration solved = solve(made.unposed(), made.rows);
+    EXPECT_NE(solved.verdict, Verdict::kBad) << reasonsOf(solved);
+    const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), true);
+    EXPECT_LT(errors.degrees, 0.15) << outliers;
+    EXPECT_LT(errors.metres, 0.015) << outliers;
+    for (const CalibratedCamera& c : solved.cameras) {
+      const double share = static_cast<double>(c.rejected) / static_cast<double>(c.observations);
+      EXPECT_NEAR(share, outliers, 0.06) << c.label;
+      EXPECT_LT(c.reprojection_rms_px, 1.0);
+    }
+  }
+}
+
+TEST(RigCalibration, CamerasThatExposeOnTheirOwnAreInterpolated) {
+  RecordingOptions recording;
+  recording.duration_s = 20.0;
+  recording.rate_hz = 60.0;
+  recording.together = false;
+  recording.jitter_s = 0.004;
+  recording.outliers = 0.1;
+  const MadeRecording made = wavedLight(recording, 15);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.timing, Timing::kInterpolated);
+  EXPECT_NE(solved.verdict, Verdict::kBad) << reasonsOf(solved);
+  EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.015);
+}
+
+TEST(RigCalibration, GivenPosesStandAndSetWorldAndScale) {
+  RecordingOptions recording;
+  recording.duration_s = 20.0;
+  const MadeRecording made = wavedLight(recording, 16);
+  std::vector<RigCamera> cameras = made.unposed();
+  cameras[0].camera_from_world = made.cameras[0].camera_from_world;
+  cameras[2].camera_from_world = made.cameras[2].camera_from_world;
+  const RigCalibration solved = solve(cameras, made.rows);
+  EXPECT_EQ(solved.verdict, Verdict::kGood) << reasonsOf(solved);
+  EXPECT_TRUE(solved.metric);
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const Vector6d error =
+        cameraPerturbation(*made.cameras[c].camera_from_world, *solved.cameras[c].camera_from_world);
+    EXPECT_LT(error.tail<3>().norm(), cameras[c].camera_from_world ? 1e-12 : 0.01) << c;
+    EXPECT_EQ(solved.cameras[c].covariance.has_value(), !cameras[c].camera_from_world) << c;
+  }
+}
+
+TEST(RigCalibration, GivenPosesThatWereMovedAreNotBelieved) {
+  const MadeRecording made = wavedLight({}, 17);
+  std::vector<RigCamera> cameras = made.unposed();
+  cameras[0].camera_from_world = made.cameras[0].camera_from_world;
+  cameras[1].camera_from_world =
+      perturbCamera(*made.cameras[1].camera_from_world, (Vector6d() << 0.1, 0, 0, 0, 0, 0).finished());
+  const RigCalibration solved = solve(cameras, made.rows);
+  EXPECT_EQ(solved.verdict, Verdict::kBad);
+  EXPECT_NE(reasonsOf(solved).find("given poses disagree"), std::string::npos);
+}
+
+TEST(RigCalibration, DistanceOfTwoCamerasSetsTheScale) {
+  const MadeRecording made = wavedLight({}, 18);
+  RigCalibrationOptions options;
+  const auto centre = [&](std::size_t c) { return made.cameras[c].camera_from_world->inverseTranslation(); };
+  options.scale = KnownDistance{1, 3, (centre(1) - centre(3)).norm()};
+  const RigCalibration solved = solve(made.unposed(), made.rows, options);
+  EXPECT_TRUE(solved.metric);
+  EXPECT_LT(poseErrors(made.cameras, posesOf(solved), false).metres, 0.03);
+}
+
+TEST(RigCalibration, TwoScalesAreRefused) {
+  const MadeRecording made = wavedBoard({}, 19);
+  RigCalibrationOptions options;
+  options.scale = KnownDistance{0, 1, 2.0};
+  EXPECT_THROW(solve(made.unposed(), made.rows, options), Error);
+}
+
+/// The mean of e^T C^-1 e over many recordings is the number of parameters when the covariance is true.
+TEST(RigCalibration, CovarianceIsTrue) {
+  constexpr int kRuns = 24;
+  double nees = 0.0;
+  int count = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    RecordingOptions recording;
+    recording.cameras = 3;
+    recording.duration_s = 4.0;
+    const MadeRecording made = wavedLight(recording, 100 + static_cast<std::uint64_t>(run));
+    std::vector<RigCamera> cameras = made.cameras;
+    cameras[2].camera_from_world.reset();
+    const RigCalibration solved = solve(cameras, made.rows);
+    ASSERT_TRUE(solved.cameras[2].covariance.has_value()) << run;
+    const Vector6d e =
+        cameraPerturbation(*made.cameras[2].camera_from_world, *solved.cameras[2].camera_from_world);
+    nees += e.dot(solved.cameras[2].covariance->ldlt().solve(e));
+    ++count;
+  }
+  // Standard deviation of the mean of a chi square of 6: sqrt(12 / 24) = 0.7.
+  EXPECT_NEAR(nees / count, 6.0, 2.1);
+}
+
+TEST(RigCalibration, CovarianceOfAFreeBoardRigIsTrue) {
+  constexpr int kRuns = 10;
+  double nees = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    RecordingOptions recording;
+    recording.cameras = 3;
+    recording.duration_s = 1.0;
+    const MadeRecording made = wavedBoard(recording, 200 + static_cast<std::uint64_t>(run));
+    const RigCalibration solved = solve(made.unposed(), made.rows);
+    // The first camera is the world: compare in its frame.
+    const RigidTransform world = made.cameras[0].camera_from_world->inverse();
+    for (const std::size_t c : {1U, 2U}) {
+      const Vector6d e = cameraPerturbation(*made.cameras[c].camera_from_world * world,
+                                            *solved.cameras[c].camera_from_world);
+      ASSERT_TRUE(solved.cameras[c].covariance.has_value());
+      nees += e.dot(solved.cameras[c].covariance->ldlt().solve(e)) / 2.0;
+    }
+  }
+  EXPECT_NEAR(nees / kRuns, 6.0, 3.0);
+}
+
+TEST(RigCalibration, CameraThatSharesNothingIsNamed) {
+  MadeRecording made = wavedLight({}, 20);
+  for (PointRow& row : made.rows.rows)
+    if (row.camera == 3) row.time_s += 1000.0;
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.verdict, Verdict::kBad);
+  EXPECT_FALSE(solved.cameras[3].camera_from_world.has_value());
+  EXPECT_NE(reasonsOf(solved).find("camera 4 shares no observation"), std::string::npos) << reasonsOf(solved);
+}
+
+TEST(RigCalibration, CameraThatOnlyOneOtherSeesWithHasNoScale) {
+  MadeRecording made = wavedLight({}, 21);
+  // Camera 4 sees the light only while 1 and 2 are covered: nothing ties its distance to theirs.
+  std::erase_if(made.rows.rows, [](const PointRow& row) {
+    return (row.time_s < 5.0) ? row.camera == 3 : row.camera == 0 || row.camera == 1;
+  });
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.verdict, Verdict::kBad);
+}
+
+TEST(RigCalibration, NoiseIsNoCalibration) {
+  RecordingOptions recording;
+  recording.duration_s = 2.0;
+  MadeRecording made = wavedLight(recording, 22);
+  Random random(5);
+  for (PointRow& row : made.rows.rows) row.pixel = {random.uniform(0, 640), random.uniform(0, 480)};
+  EXPECT_EQ(solve(made.unposed(), made.rows).verdict, Verdict::kBad);
+}
+
+TEST(RigCalibration, LightThatDoesNotMoveIsNoCalibration) {
+  RecordingOptions recording;
+  recording.duration_s = 2.0;
+  MadeRecording made = wavedLight(recording, 23);
+  std::vector<Eigen::Vector2d> first(made.cameras.size(), Eigen::Vector2d::Zero());
+  for (PointRow& row : made.rows.rows) {
+    auto& pixel = first[static_cast<std::size_t>(row.camera)];
+    if (pixel.isZero()) pixel = row.pixel;
+    row.pixel = pixel;
+  }
+  EXPECT_EQ(solve(made.unposed(), made.rows).verdict, Verdict::kBad);
+}
+
+TEST(RigCalibration, RepeatsBitForBit) {
+  RecordingOptions recording;
+  recording.outliers = 0.2;
+  const MadeRecording made = wavedLight(recording, 24);
+  const RigCalibration a = solve(made.unposed(), made.rows), b = solve(made.unposed(), made.rows);
+  for (std::size_t c = 0; c < a.cameras.size(); ++c) {
+    ASSERT_TRUE(a.cameras[c].camera_from_world.has_value());
+    EXPECT_EQ(a.cameras[c].camera_from_world->translation, b.cameras[c].camera_from_world->translation);
+  }
+}
+
+}  // namespace
+}  // namespace helical

@@ -112,6 +112,7 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["selected_features"] = selected;
   report["server_us"] = microseconds(run.last.server_p50, run.last.server_p99);
   report["frame_to_command_us"] = microseconds(run.last.frame_to_command_p50, run.last.frame_to_command_p99);
+  report["not_armed"] = checkReasons(score.unarmedBecause());
   report["failsafes"] = failsafeNames(score.failsafes());
   report["session"] = run.session.empty() ? json(nullptr) : json(run.session);
   return report.dump(2);
@@ -154,6 +155,7 @@ std::string flightText(const FlightRun& run, const RigConfig& rig) {
   text +=
       line("  server    %.0f us per command (99 %%: %.0f)\n", static_cast<double>(run.last.server_p50) * 1e-3,
            static_cast<double>(run.last.server_p99) * 1e-3);
+  for (const auto& reason : checkReasons(score.unarmedBecause())) text += "  not armed: " + reason + "\n";
   for (const auto& name : failsafeNames(score.failsafes())) text += "  failsafe  " + name + "\n";
   return text;
 }

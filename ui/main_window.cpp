@@ -93,6 +93,7 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig
     plots_->showSheet(PlotDeck::kCalibration);
   }
 
+  connect(top_bar_, &TopBar::armRequested, this, &MainWindow::arm);
   connect(top_bar_, &TopBar::takeOffRequested, this, &MainWindow::takeOff);
   connect(top_bar_, &TopBar::landRequested, this, &MainWindow::land);
   connect(top_bar_, &TopBar::stopRequested, this, &MainWindow::stop);
@@ -408,6 +409,14 @@ void MainWindow::chooseMethod(const QString& method) {
   if (engine_) engine_->setCalibrator(method.toStdString());
 }
 
+void MainWindow::arm(bool arm) {
+  if (engine_ == nullptr) return;
+  if (arm)
+    engine_->arm();
+  else
+    engine_->disarm();
+}
+
 void MainWindow::takeOff() {
   if (engine_) engine_->takeOff();
 }
@@ -438,8 +447,9 @@ void MainWindow::tick() {
   if (ticks_ % kPlotsEvery == 1) plots_->redraw();
   if (ticks_ % kNumbersEvery == 1 && snapshot.tick > 0) showNumbers(snapshot);
   if (since_load_.elapsed() >= 1000) showLoad();
-  if (options_.auto_take_off && !took_off_by_itself_ && snapshot.pose_known) {
+  if (options_.auto_take_off && !took_off_by_itself_ && snapshot.pose_known && snapshot.failing_checks == 0) {
     took_off_by_itself_ = true;
+    arm(true);
     takeOff();
   }
 }

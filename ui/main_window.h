@@ -72,6 +72,7 @@ class MainWindow : public QMainWindow {
   void firstImage(qint64 since_process_start_ns);
 
  public Q_SLOTS:
+  void arm(bool arm);
   void takeOff();
   void land();
   void stop();

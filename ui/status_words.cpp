@@ -70,8 +70,12 @@ StatusWord safetyWord(SafetyState state) {
   switch (state) {
     case SafetyState::kNormal:
       return {tr("Normal"), theme::kHealthy};
+    case SafetyState::kHolding:
+      return {tr("Holding"), theme::kCaution};
     case SafetyState::kCoasting:
       return {tr("Coasting"), theme::kCaution};
+    case SafetyState::kNeutral:
+      return {tr("Neutral"), theme::kCaution};
     case SafetyState::kDescending:
       return {tr("Descending"), theme::kDanger};
     case SafetyState::kLandNow:
@@ -93,7 +97,7 @@ StatusWord readinessWord(const EngineSnapshot& snapshot) {
 }
 
 QString failsafeNames(std::uint32_t failsafes) {
-  static const std::array<std::pair<Failsafe, const char*>, 9> names{{
+  static const std::array<std::pair<Failsafe, const char*>, 15> names{{
       {Failsafe::kNoPoseCoast, QT_TRANSLATE_NOOP("Status", "coast")},
       {Failsafe::kNoPoseDescent, QT_TRANSLATE_NOOP("Status", "descent")},
       {Failsafe::kNoPoseCut, QT_TRANSLATE_NOOP("Status", "no-pose cut")},
@@ -103,6 +107,12 @@ QString failsafeNames(std::uint32_t failsafes) {
       {Failsafe::kFlightTime, QT_TRANSLATE_NOOP("Status", "flight time")},
       {Failsafe::kKill, QT_TRANSLATE_NOOP("Status", "stop")},
       {Failsafe::kLiftOffFailed, QT_TRANSLATE_NOOP("Status", "lift-off failed")},
+      {Failsafe::kNoPoseNeutral, QT_TRANSLATE_NOOP("Status", "neutral")},
+      {Failsafe::kFewCameras, QT_TRANSLATE_NOOP("Status", "no camera")},
+      {Failsafe::kUncertain, QT_TRANSLATE_NOOP("Status", "doubtful pose")},
+      {Failsafe::kUncertainLand, QT_TRANSLATE_NOOP("Status", "doubtful pose: landed")},
+      {Failsafe::kSpeed, QT_TRANSLATE_NOOP("Status", "speed")},
+      {Failsafe::kTransmitterLost, QT_TRANSLATE_NOOP("Status", "transmitter")},
   }};
   QStringList acted;
   for (const auto& [failsafe, name] : names)

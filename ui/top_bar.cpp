@@ -88,10 +88,13 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
        {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_), static_cast<QWidget*>(time_)})
     layout->addWidget(widget);
   layout->addSpacing(6);
-  for (QWidget* widget : {take_off_, land_, stop_}) layout->addWidget(widget);
+  for (QWidget* widget : {arm_, take_off_, land_, stop_}) layout->addWidget(widget);
 }
 
 void TopBar::buildButtons() {
+  arm_ = makeButton(tr("Arm"), tr("Allow the rotors to turn, or forbid it again"), "arm");
+  arm_->setEnabled(false);
+  connect(arm_, &QPushButton::clicked, this, [this] { Q_EMIT armRequested(!armed_); });
   take_off_ = makeButton(tr("Take off"),
                          tr("Start the flight plan; the readiness word tells what is missing"), "takeOff");
   land_ = makeButton(tr("Land"), tr("Land where it is"), "land");
@@ -142,7 +145,11 @@ void TopBar::show(const EngineSnapshot& snapshot) {
   time_->set(snapshot.flight_time_s > 0.0 ? clockText(fromSeconds(snapshot.flight_time_s)) : kNoValue,
              inFlight(snapshot.phase) ? theme::kActive : theme::kFaint);
   const bool cut = snapshot.safety == SafetyState::kCut;
-  take_off_->setEnabled(!cut && snapshot.pose_known && snapshot.phase == FlightPhase::kIdle);
+  armed_ = snapshot.armed;
+  arm_->setText(armed_ ? tr("Disarm") : tr("Arm"));
+  arm_->setAccessibleName(arm_->text());
+  arm_->setEnabled(!cut && snapshot.phase == FlightPhase::kIdle);
+  take_off_->setEnabled(!cut && snapshot.armed && snapshot.phase == FlightPhase::kIdle);
   land_->setEnabled(!cut &&
                     (snapshot.phase == FlightPhase::kLiftOff || snapshot.phase == FlightPhase::kFlying));
 }

@@ -15,7 +15,7 @@ class PreflightPopup;
 class StatusChip;
 
 /// The bar that is always there: name, menus, readiness in one word (a click opens the pre-flight list),
-/// rates, flight time, Take off, Land, STOP. Buttons only ask; what is shown is what the engine answers.
+/// rates, flight time, Arm, Take off, Land, STOP. Buttons only ask; what is shown is what the engine answers.
 class TopBar : public QWidget {
   Q_OBJECT
 
@@ -24,6 +24,7 @@ class TopBar : public QWidget {
   explicit TopBar(const RigConfig& rig, QWidget* parent = nullptr);
 
   QMenuBar* menuBar() const { return menu_bar_; }
+  QPushButton* armButton() const { return arm_; }
   QPushButton* takeOffButton() const { return take_off_; }
   QPushButton* landButton() const { return land_; }
   QPushButton* stopButton() const { return stop_; }
@@ -34,6 +35,7 @@ class TopBar : public QWidget {
   void show(const EngineSnapshot& snapshot);
 
  Q_SIGNALS:
+  void armRequested(bool arm);
   void takeOffRequested();
   void landRequested();
   void stopRequested();
@@ -50,6 +52,8 @@ class TopBar : public QWidget {
   StatusChip* cameras_;
   StatusChip* engine_;
   StatusChip* time_;
+  bool armed_ = false;
+  QPushButton* arm_;
   QPushButton* take_off_;
   QPushButton* land_;
   QPushButton* stop_;

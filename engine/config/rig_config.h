@@ -16,6 +16,7 @@
 #include "engine/markers/marker_options.h"
 #include "engine/simulator/simulation_options.h"
 #include "engine/tracking/tracker_options.h"
+#include "engine/transmitter/transmitter_options.h"
 
 namespace helical {
 
@@ -40,6 +41,7 @@ struct RigConfig {
   TrackerOptions tracking;
   ControllerOptions control;
   SupervisorOptions safety;
+  TransmitterOptions transmitter;
   SimulationOptions simulation;
   std::string tracker = "helical";  ///< or "paper", to compare with
   /// Cameras learn from any pose, also one that they helped to find: what the paper does after the switch.

@@ -60,8 +60,7 @@ CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, Toml
     if (focal <= 0.0)
       table.fail(key, "'" + std::string(key) + "' is not positive",
                  "give the focal length in pixels, greater than 0");
-  return CameraModel(static_cast<int>(size[0]), static_cast<int>(size[1]), fx, fy, cx, cy,
-                     distortion);
+  return CameraModel(static_cast<int>(size[0]), static_cast<int>(size[1]), fx, fy, cx, cy, distortion);
 }
 
 /// Finishes the table; its other keys have been read.
@@ -179,7 +178,7 @@ RigConfig parseRig(std::string_view toml, const std::string& name) {
   readTrackerOptions(root.table("tracking"), rig.tracking);
   readControllerOptions(root.table("flight"), rig.control);
   readSupervisorOptions(root.table("safety"), rig.safety);
-  readTransmitter(root.table("transmitter"));
+  readTransmitterOptions(root.table("transmitter"), rig.transmitter);
   readCalibration(root.table("calibration"), rig);
   readSimulation(root.table("simulation"), rig);
   root.finish();

@@ -120,6 +120,38 @@ constexpr OptionField<SupervisorOptions> kSupervisorFields[] = {
     {"fence_height_m", &SupervisorOptions::fence_height},
     {"hard_fence_margin_m", &SupervisorOptions::hard_fence_margin},
     {"flight_time_limit_s", &SupervisorOptions::flight_time_limit_s},
+    {"neutral_after_s", &SupervisorOptions::neutral_after_s},
+    {"speed_limit_m_s", &SupervisorOptions::speed_limit},
+    {"speed_time_s", &SupervisorOptions::speed_time_s},
+    {"fence_x_m", &SupervisorOptions::fence_half_x},
+    {"fence_y_m", &SupervisorOptions::fence_half_y},
+    {"fence_warning_margin_m", &SupervisorOptions::fence_warning_margin},
+    {"residual_limit", &SupervisorOptions::residual_limit},
+    {"position_sigma_limit_m", &SupervisorOptions::position_sigma_limit},
+    {"rotation_sigma_limit_deg", &SupervisorOptions::rotation_sigma_limit, kDegree},
+    {"uncertain_after_s", &SupervisorOptions::uncertain_after_s},
+    {"uncertain_land_s", &SupervisorOptions::uncertain_land_s},
+    {"camera_silent_s", &SupervisorOptions::camera_silent_s},
+    {"camera_clock_s", &SupervisorOptions::camera_clock_s},
+    {"overrun_s", &SupervisorOptions::overrun_s},
+    {"transmitter_fault_s", &SupervisorOptions::transmitter_fault_s},
+    {"record_stalled_s", &SupervisorOptions::record_stalled_s},
+    {"arm_cameras", &SupervisorOptions::arm_cameras},
+    {"arm_rate_share", &SupervisorOptions::arm_rate_share},
+    {"arm_speed_m_s", &SupervisorOptions::arm_speed},
+    {"arm_disk_gb", &SupervisorOptions::arm_disk_gb},
+    {"disarm_idle_s", &SupervisorOptions::disarm_idle_s},
+    {"disarm_after_cut_s", &SupervisorOptions::disarm_after_cut_s},
+};
+
+constexpr OptionField<TransmitterOptions> kTransmitterFields[] = {
+    {"rate_hz", &TransmitterOptions::rate_hz},
+};
+
+constexpr OptionField<OutputGuardOptions> kGuardFields[] = {
+    {"silent_s", &OutputGuardOptions::silent_s, 1.0, 0.02, 0.14},
+    {"hold_s", &OutputGuardOptions::hold_s, 1.0, 0.01, 10.0},
+    {"ramp_per_s", &OutputGuardOptions::ramp_per_s, 1.0, 0.05, 100.0},
 };
 
 constexpr OptionField<SimulationOptions> kSimulationFields[] = {
@@ -232,6 +264,10 @@ void readControllerOptions(TomlTable table, ControllerOptions& options) {
 }
 
 void readSupervisorOptions(TomlTable table, SupervisorOptions& options) {
+  const std::string fence = table.text("fence").value_or("cylinder");
+  if (fence != "cylinder" && fence != "box")
+    table.fail("fence", "unknown fence '" + fence + "'", "use \"cylinder\" or \"box\"");
+  options.fence = fence == "box" ? FenceShape::kBox : FenceShape::kCylinder;
   readAndValidate(table, kSupervisorFields, options);
 }
 
@@ -242,11 +278,14 @@ void readSimulationOptions(TomlTable& table, SimulationOptions& options) {
   noise.locate([&] { validate(options); });
 }
 
-void readTransmitter(TomlTable table) {
-  const std::string kind = table.text("kind").value_or("simulated");
-  table.finish();
-  if (kind != "simulated")
-    table.fail("kind", "the transmitter '" + kind + "' is not built yet", "use kind = \"simulated\"");
+void readTransmitterOptions(TomlTable table, TransmitterOptions& options) {
+  options.kind = table.text("kind").value_or(options.kind);
+  if (options.kind != "simulated" && options.kind != "loopback")
+    table.fail("kind", "the transmitter '" + options.kind + "' is not built yet",
+               "use kind = \"simulated\" or \"loopback\"");
+  options.device = table.text("device").value_or(options.device);
+  readOptions(table, kGuardFields, options.guard);
+  readAndValidate(table, kTransmitterFields, options);
 }
 
 void readCalibration(TomlTable table, RigConfig& rig) {

@@ -18,17 +18,23 @@ constexpr double kShortestFlightS = 6.0;
 constexpr double kLongestLiftOffS = 8.0;
 constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
 
-/// The operator of a headless flight: orders the take-off once the pose is known, and knows when it is over.
+constexpr double kPatienceS = 20.0;  // for the pre-arm checks, after which the flight is given up
+
+/// The operator of a headless flight: arms and takes off once every check passes, and knows when it is over.
 class Operator {
  public:
   explicit Operator(double limit_s) : end_(limit_s) {}
 
   bool wantsTakeOff(const EngineSnapshot& now) {
-    if (ordered_ || !now.pose_known) return false;
+    if (ordered_ || !now.pose_known || now.failing_checks != 0) return false;
     ordered_ = true;
     return true;
   }
-  bool isOver(const EngineSnapshot& now) { return end_.isOver(now); }
+
+  bool isOver(const EngineSnapshot& now) {
+    const bool never_armed = !ordered_ && toSeconds(now.time) > kPatienceS;
+    return end_.isOver(now) || never_armed;
+  }
 
  private:
   FlightEnd end_;
@@ -40,7 +46,7 @@ void fly(LockStep& flight, Operator& pilot, FlightRun& run, const TickListener& 
   do {
     run.last = flight.tick(commands);
     run.score.add(run.last);
-    commands.take_off = pilot.wantsTakeOff(run.last);
+    commands.arm = commands.take_off = pilot.wantsTakeOff(run.last);
     listener(run.last);
   } while (!pilot.isOver(run.last));
 }
@@ -51,7 +57,10 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const TickListener& li
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     while (!over && engine.nextTick(run.last)) {
       run.score.add(run.last);
-      if (pilot.wantsTakeOff(run.last)) engine.takeOff();
+      if (pilot.wantsTakeOff(run.last)) {
+        engine.arm();
+        engine.takeOff();
+      }
       listener(run.last);
       over = pilot.isOver(run.last);
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/flight/fence.h"
+#include "engine/flight/pre_arm.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -25,16 +27,12 @@ constexpr double kSinkTime = 0.5;              // s until the open-loop descent 
 constexpr double kSinkThrust = -0.022;         // rotor fraction; a tenth of the weight
 constexpr double kHoldSinkThrust = -0.006;     // what the rotors' damping carries at that speed
 constexpr double kFadeThrust = 0.05;           // rotor fraction per second
-constexpr double kOrderLasts =
-    5.0;                            // s beyond the plan's delay: an older take-off order is refused, not kept
-constexpr double kPadRadius = 0.5;  // m, within which it may start
-constexpr double kPadTolerance = 0.06;    // m, of its height above the ground
-constexpr double kStartTilt = 0.2;        // rad
-constexpr double kStartSpeed = 0.15;      // m/s
-constexpr double kLongestLiftOff = 20.0;  // s
-constexpr double kStillSpeed = 0.05;      // m/s
-constexpr double kStillTime = 1.5;        // s: what no longer sinks has landed, on whatever
-constexpr double kOldPad = 0.05;          // s: a fresher pose measures the pad's height
+constexpr double kDriftTime = 0.3;             // s, of the smoothing of what should stand still
+constexpr double kVelocityNoise = 0.1;         // m/s, of the pose of what stands still
+constexpr double kUnknownDrift = 0.2;          // m/s, of what is not seen
+constexpr double kLongestLiftOff = 20.0;       // s
+constexpr double kStillSpeed = 0.05;           // m/s
+constexpr double kStillTime = 1.5;             // s: what no longer sinks has landed, on whatever
 
 }  // namespace
 
@@ -57,26 +55,49 @@ void Autopilot::enter(FlightPhase phase, TimeNs now) {
   phase_since_ = now;
 }
 
+SupervisorConditions Autopilot::conditions(const AutopilotInput& input, double height) const {
+  const RigidTransform& pose = input.state.world_from_body;
+  SupervisorConditions c;
+  c.now = input.now;
+  c.phase = phase_;
+  c.pose_known = input.pose_known;
+  c.pose_age_s = input.pose_age_s;
+  c.tilt = tiltOf(pose.rotation);
+  c.speed = input.state.velocity_in_world.norm();
+  c.drift = std::max(drift_.norm(), c.speed - kVelocityNoise);
+  c.place << pose.translation.head<2>(), height;
+  c.standing_error = pose.translation.z() - standing_height_;
+  c.flight_time_s = flightTime(input.now);
+  c.sticks_idle = sticks_ == StickDemand{};
+  c.lift_off_failed = phase_ == FlightPhase::kLiftOff &&
+                      (throttle_ > kHighestThrottle || toSeconds(input.now - phase_since_) > kLongestLiftOff);
+  c.arm = input.commands.arm;
+  c.disarm = input.commands.disarm;
+  c.kill = input.commands.kill;
+  c.health = input.health;
+  return c;
+}
+
+void Autopilot::smoothDrift(const AutopilotInput& input) {
+  if (!input.pose_known || input.pose_age_s > safety_options_.coast_after_s)
+    drift_ = kUnknownDrift * Eigen::Vector3d::UnitX();
+  const double share = 1.0 / (control_.rate_hz * kDriftTime);
+  drift_ += std::min(1.0, share) * (input.state.velocity_in_world - drift_);
+}
+
+void Autopilot::obey(const OperatorCommands& commands) {
+  refusal_ = nullptr;
+  take_off_pending_ = (take_off_pending_ || commands.take_off) && !commands.land;
+  holding_ = (holding_ || commands.hold) && !commands.take_off && !commands.land && inTheAir(phase_);
+  if (phase_ != FlightPhase::kIdle) take_off_pending_ = false;
+}
+
 AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   const Eigen::Vector3d& position = input.state.world_from_body.translation;
   const double height = position.z() - pad_height_;
-  if (input.commands.take_off) ordered_at_ = input.now;
-  take_off_pending_ = (take_off_pending_ || input.commands.take_off) && !input.commands.land;
-  refusal_ = nullptr;
-
-  SupervisorConditions conditions;
-  conditions.now = input.now;
-  conditions.phase = phase_;
-  conditions.pose_age_s = input.pose_age_s;
-  conditions.tilt = tiltOf(input.state.world_from_body.rotation);
-  conditions.distance_from_pad = position.head<2>().norm();
-  conditions.height_above_pad = height;
-  conditions.flight_time_s = flightTime(input.now);
-  conditions.lift_off_failed =
-      phase_ == FlightPhase::kLiftOff &&
-      (throttle_ > kHighestThrottle || toSeconds(input.now - phase_since_) > kLongestLiftOff);
-  conditions.kill = input.commands.kill;
-  supervisor_ = supervise(safety_options_, supervisor_, conditions);
+  smoothDrift(input);
+  obey(input.commands);
+  supervisor_ = supervise(safety_options_, supervisor_, conditions(input, height));
 
   AutopilotOutput output;
   if (supervisor_.state == SafetyState::kCut) {
@@ -85,16 +106,23 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
     advance(input, height);
     output.sticks = act(input, height);
   }
+  sticks_ = output.sticks;
   output.phase = phase_;
   output.safety = supervisor_.state;
   output.failsafes = supervisor_.failsafes;
+  output.alarms = supervisor_.alarms;
+  output.armed = supervisor_.armed;
+  output.failing_checks = supervisor_.failing_checks;
+  output.arm_refused = supervisor_.refused;
+  output.holding = holding_;
   output.set_point = follower_.setPoint();
   if (phase_ < FlightPhase::kFlying) {
     output.set_point.position_in_world = position;
     output.set_point.yaw = yawOf(input.state.world_from_body.rotation);
   }
   output.pad_height = pad_height_;
-  if (phase_ == FlightPhase::kIdle) output.obstacle = startObstacle(input);
+  if (phase_ == FlightPhase::kIdle)
+    output.obstacle = firstReason(supervisor_.failing_checks & kStandingChecks);
   output.refusal = refusal_;
   output.airborne = inTheAir(phase_);
   output.hovering = phase_ == FlightPhase::kFlying && follower_.atFirstWaypoint();
@@ -103,18 +131,19 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
 
 void Autopilot::advance(const AutopilotInput& input, double height) {
   const double in_phase = toSeconds(input.now - phase_since_);
+  const bool ordered = input.commands.land || supervisor_.state == SafetyState::kLandNow;
   switch (phase_) {
     case FlightPhase::kIdle:
       awaitStart(input);
       return;
     case FlightPhase::kSpinUp:
-      if (input.commands.land)
+      if (ordered)
         enter(FlightPhase::kTouchdown, input.now);
       else if (throttle_ >= kSpinUpThrottle)
         enter(FlightPhase::kLiftOff, input.now);
       return;
     case FlightPhase::kLiftOff:
-      if (input.commands.land) {
+      if (ordered) {
         enter(FlightPhase::kTouchdown, input.now);
       } else if (height > kAirborneHeight) {
         controller_.liftOff(throttle_);
@@ -127,10 +156,9 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
       return;
     case FlightPhase::kFlying: {
       const bool time_to_land = plan_.land_at_s > 0.0 && flightTime(input.now) >= plan_.land_at_s;
-      const bool ordered = input.commands.land || supervisor_.state == SafetyState::kLandNow;
+      const bool done = time_to_land || (plan_.land_at_s <= 0.0 && follower_.finished());
       if (ordered) follower_.resetTo(input.state.world_from_body.translation);
-      if (time_to_land || ordered || (plan_.land_at_s <= 0.0 && follower_.finished()))
-        enter(FlightPhase::kLanding, input.now);
+      if (ordered || (done && !holding_)) enter(FlightPhase::kLanding, input.now);
       return;
     }
     case FlightPhase::kLanding:
@@ -144,19 +172,8 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
   }
 }
 
-const char* Autopilot::startObstacle(const AutopilotInput& input) const {
-  const RigidTransform& pose = input.state.world_from_body;
-  if (!input.pose_known || input.pose_age_s > kOldPad) return "the helicopter is not seen";
-  if (pose.translation.head<2>().norm() > kPadRadius ||
-      std::abs(pose.translation.z() - standing_height_) > kPadTolerance)
-    return "it does not stand on the pad";
-  if (tiltOf(pose.rotation) > kStartTilt) return "it does not stand upright";
-  if (input.state.velocity_in_world.norm() > kStartSpeed) return "it moves";
-  return nullptr;
-}
-
 void Autopilot::awaitStart(const AutopilotInput& input) {
-  const char* obstacle = startObstacle(input);
+  const char* obstacle = firstReason(supervisor_.failing_checks & kStandingChecks);
   if (obstacle != nullptr) {
     seen_since_ = -1;
   } else {
@@ -164,14 +181,13 @@ void Autopilot::awaitStart(const AutopilotInput& input) {
     pad_height_ = input.state.world_from_body.translation.z();
   }
   if (!take_off_pending_) return;
-  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < plan_.start_delay_s) {
-    // An order that waited long must not start the rotors of a helicopter that somebody is just carrying
-    // back.
-    if (obstacle == nullptr || toSeconds(input.now - ordered_at_) < kOrderLasts) return;
+  if (!supervisor_.armed) {
+    // An order that waited must not start the rotors of a helicopter that somebody is just carrying back.
     take_off_pending_ = false;
-    refusal_ = obstacle;
+    refusal_ = obstacle != nullptr ? obstacle : "it is not armed";
     return;
   }
+  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < plan_.start_delay_s) return;
   take_off_pending_ = false;
   started_ = input.now;
   controller_.reset();
@@ -225,18 +241,30 @@ StickDemand Autopilot::act(const AutopilotInput& input, double height) {
 
 StickDemand Autopilot::flySighted(const AutopilotInput& input, double height) {
   const double dt = 1.0 / control_.rate_hz;
-  follower_.step(dt, input.state.world_from_body.translation, phase_ == FlightPhase::kLanding);
+  const bool landing = phase_ == FlightPhase::kLanding;
+  if (!landing && (holding_ || supervisor_.state == SafetyState::kHolding))
+    follower_.stay();
+  else
+    follower_.step(dt, input.state.world_from_body.translation, landing);
+  SetPoint target = follower_.setPoint();
+  const Eigen::Vector3d pad(0.0, 0.0, pad_height_);
+  const Eigen::Vector3d inside = pad + pushedBack(safety_options_, target.position_in_world - pad);
+  if (inside.head<2>() != target.position_in_world.head<2>()) target.velocity_in_world.head<2>().setZero();
+  target.position_in_world = inside;
   Controller::FlyOptions options;
   options.integrate_position = height > kIntegrateHeight;
-  return controller_.fly(input.state, follower_.setPoint(), options, dt);
+  return controller_.fly(input.state, target, options, dt);
 }
 
 StickDemand Autopilot::flyBlind(const AutopilotInput& input) {
   // The model knows the next tenth of a second; feedback on a longer prediction is worse than none.
   Controller::FlyOptions options;
   options.integrate_position = false;
-  options.feedback =
-      std::min(0.999, std::exp(-(input.pose_age_s - safety_options_.coast_after_s) / kFadeTime));
+  if (supervisor_.state < SafetyState::kNeutral)
+    options.feedback =
+        std::min(0.999, std::exp(-(input.pose_age_s - safety_options_.coast_after_s) / kFadeTime));
+  else
+    options.feedback = 0.0;
   if (supervisor_.state == SafetyState::kDescending) {
     // Open loop: sink to the descent speed, hold it against the rotors' damping, and fade the thrust once it
     // should be down.

@@ -3,17 +3,11 @@
 #include "engine/flight/controller.h"
 #include "engine/flight/flight_plan.h"
 #include "engine/flight/flight_state.h"
+#include "engine/flight/operator_commands.h"
 #include "engine/flight/plan_follower.h"
 #include "engine/flight/supervisor.h"
 
 namespace helical {
-
-/// What the operator asked for since the last tick.
-struct OperatorCommands {
-  bool take_off = false;
-  bool land = false;
-  bool kill = false;
-};
 
 struct AutopilotInput {
   TimeNs now = 0;
@@ -21,13 +15,19 @@ struct AutopilotInput {
   double pose_age_s = 0.0;  ///< since the last observation that was used
   HelicopterState state;    ///< predicted to when the sticks will act
   OperatorCommands commands;
+  SystemHealth health;
 };
 
 struct AutopilotOutput {
   StickDemand sticks;
   FlightPhase phase = FlightPhase::kIdle;
   SafetyState safety = SafetyState::kNormal;
-  std::uint32_t failsafes = 0;
+  std::uint32_t failsafes = 0;  ///< that have ever acted
+  std::uint32_t alarms = 0;     ///< failsafes and warnings that act now
+  bool armed = false;
+  std::uint32_t failing_checks = 0;  ///< bits of PreArmCheck, now
+  std::uint32_t arm_refused = 0;  ///< at the tick of an order to arm that is refused: the checks that failed
+  bool holding = false;           ///< by the operator's order
   SetPoint set_point;
   double pad_height = 0.0;  ///< of the body's origin standing on the pad, as seen before the start [m]
   bool hovering = false;    ///< has reached the first waypoint and is not landing
@@ -47,13 +47,15 @@ class Autopilot {
   AutopilotOutput step(const AutopilotInput& input);
 
  private:
+  SupervisorConditions conditions(const AutopilotInput& input, double height) const;
+  void obey(const OperatorCommands& commands);
   void advance(const AutopilotInput& input, double height);
   StickDemand act(const AutopilotInput& input, double height);
   StickDemand flyBlind(const AutopilotInput& input);
   StickDemand flySighted(const AutopilotInput& input, double height);
   void enter(FlightPhase phase, TimeNs now);
   void awaitStart(const AutopilotInput& input);
-  const char* startObstacle(const AutopilotInput& input) const;
+  void smoothDrift(const AutopilotInput& input);
   bool hasTouchedDown(const AutopilotInput& input, double height);
   double flightTime(TimeNs now) const;
 
@@ -73,9 +75,11 @@ class Autopilot {
   bool was_blind_ = false;
   bool rotors_off_ = false;
   bool take_off_pending_ = false;
-  TimeNs ordered_at_ = 0;    ///< the pending take-off
-  TimeNs seen_since_ = -1;   ///< on the ground, without a gap
-  TimeNs still_since_ = -1;  ///< while landing, with the reference at its lower end
+  bool holding_ = false;
+  Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();  ///< smoothed velocity [m/s]
+  StickDemand sticks_;                               ///< of the last tick
+  TimeNs seen_since_ = -1;                           ///< on the ground, without a gap
+  TimeNs still_since_ = -1;                          ///< while landing, with the reference at its lower end
   const char* refusal_ = nullptr;
 };
 

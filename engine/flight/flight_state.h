@@ -26,17 +26,20 @@ constexpr bool inTheAir(FlightPhase phase) {
   return phase == FlightPhase::kFlying || phase == FlightPhase::kLanding;
 }
 
-/// What the supervisor allows. Only ever worsens by itself, but for kCoasting and kDescending, which end when
-/// the pose is back; kCut is latched.
+/// What the supervisor allows, from mild to severe: of several demands the most severe counts. Coasting,
+/// neutral, descending and holding end with their cause, an order to land stays, a cut is latched.
 enum class SafetyState : std::uint8_t {
   kNormal,
+  kHolding,     ///< the pose is doubtful: stays where it is
+  kLandNow,     ///< fence, speed, flight time: lands where it is
   kCoasting,    ///< no pose for a moment: feedback fades to trim
+  kNeutral,     ///< no pose for longer: trims alone
   kDescending,  ///< no pose for long: open-loop descent
-  kLandNow,     ///< fence or flight time: land where it is
   kCut,         ///< rotors off, latched
 };
 
-/// Failsafes that acted, as bits; names as in `fly --json`.
+/// What the supervisor watches, as bits. Those that demand more than kNormal are failsafes (names as in `fly
+/// --json`), the others warnings.
 enum class Failsafe : std::uint32_t {
   kNoPoseCoast = 1u << 0,
   kNoPoseDescent = 1u << 1,
@@ -47,11 +50,62 @@ enum class Failsafe : std::uint32_t {
   kFlightTime = 1u << 6,
   kKill = 1u << 7,
   kLiftOffFailed = 1u << 8,
+  kNoPoseNeutral = 1u << 9,
+  kFewCameras = 1u << 10,
+  kUncertain = 1u << 11,
+  kUncertainLand = 1u << 12,
+  kSpeed = 1u << 13,
+  kTransmitterLost = 1u << 14,
+  kFenceNear = 1u << 15,
+  kFlightTimeSoon = 1u << 16,
+  kCameraSilent = 1u << 17,
+  kCameraClock = 1u << 18,
+  kOverrun = 1u << 19,
+  kTransmitterFault = 1u << 20,
+  kPilotFlies = 1u << 21,
+  kRecord = 1u << 22,
 };
+inline constexpr int kFailsafeCount = 23;
+
+constexpr std::uint32_t bitOf(Failsafe failsafe) {
+  return static_cast<std::uint32_t>(failsafe);
+}
+
+/// What must be so before the rotors are allowed to turn, as bits of what is not.
+enum class PreArmCheck : std::uint32_t {
+  kCut = 1u << 0,
+  kFlightOver = 1u << 1,
+  kPose = 1u << 2,
+  kPad = 1u << 3,
+  kUpright = 1u << 4,
+  kStill = 1u << 5,
+  kFence = 1u << 6,
+  kCameras = 1u << 7,
+  kFrameRate = 1u << 8,
+  kResidual = 1u << 9,
+  kCovariance = 1u << 10,
+  kYaw = 1u << 11,
+  kTransmitter = 1u << 12,
+  kChannels = 1u << 13,
+  kPilot = 1u << 14,
+  kSticks = 1u << 15,
+  kRecord = 1u << 16,
+  kDisk = 1u << 17,
+  kCpu = 1u << 18,
+};
+inline constexpr int kPreArmCheckCount = 19;
+
+constexpr std::uint32_t bitOf(PreArmCheck check) {
+  return static_cast<std::uint32_t>(check);
+}
 
 const char* toString(FlightPhase phase);
 const char* toString(SafetyState state);
 const char* toString(Failsafe failsafe);
+/// Why it does not arm, for the operator.
+const char* toString(PreArmCheck check);
+/// What happens because of it, for the operator.
+const char* messageOf(Failsafe failsafe);
 
 /// Where the helicopter should be now.
 struct SetPoint {

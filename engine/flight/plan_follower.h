@@ -22,6 +22,9 @@ class PlanFollower {
   /// Set-point to where the helicopter is, after a gap: no jump, no race back.
   void resetTo(const Eigen::Vector3d& position);
 
+  /// Leaves the set-point where it is for this tick.
+  void stay() { set_point_.velocity_in_world.setZero(); }
+
   bool atLowerEnd() const;                     ///< of a landing: as far under the ground as it goes
   bool finished() const { return finished_; }  ///< every waypoint was held
   bool atFirstWaypoint() const { return reached_first_; }

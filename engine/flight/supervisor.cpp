@@ -2,72 +2,103 @@
 
 #include <algorithm>
 
+#include "engine/flight/pre_arm.h"
+
 namespace helical {
 namespace {
 
-SupervisorMemory cut(SupervisorMemory memory, Failsafe reason) {
-  memory.state = SafetyState::kCut;
-  memory.failsafes |= static_cast<std::uint32_t>(reason);
-  return memory;
+constexpr double kUnfitFor = 0.5;  // s with a failing check, after which what is armed on the pad is disarmed
+
+bool inScope(SafetyRule::Scope scope, FlightPhase phase) {
+  switch (scope) {
+    case SafetyRule::Scope::kAlways:
+      return true;
+    case SafetyRule::Scope::kRotorsTurn:
+      return rotorsTurn(phase);
+    case SafetyRule::Scope::kInTheAir:
+      return inTheAir(phase);
+  }
+  return true;
 }
 
-/// Coasting and descending, from the age of the pose; leaves the other states alone.
-SupervisorMemory withoutPose(const SupervisorOptions& options, SupervisorMemory memory,
-                             const SupervisorConditions& c) {
-  const auto raise = [&](Failsafe reason) { memory.failsafes |= static_cast<std::uint32_t>(reason); };
-  if (c.pose_age_s <= options.coast_after_s) {
-    if (memory.state == SafetyState::kCoasting || memory.state == SafetyState::kDescending)
-      memory.state = SafetyState::kNormal;
+/// How long a descent may last is fixed when it begins: where it believes to be later means nothing.
+void trackDescent(const SupervisorOptions& options, const SupervisorConditions& c, SupervisorMemory& memory) {
+  if (!rotorsTurn(c.phase) || c.pose_age_s <= options.descend_after_s) {
     memory.descending_since = -1;
-    return memory;
-  }
-  if (c.pose_age_s <= options.descend_after_s) {
-    if (memory.state == SafetyState::kNormal) memory.state = SafetyState::kCoasting;
-    raise(Failsafe::kNoPoseCoast);
-    return memory;
-  }
-  if (memory.descending_since < 0) {
+  } else if (memory.descending_since < 0) {
     memory.descending_since = c.now;
     memory.descent_s =
-        std::min(options.longest_descent_s, c.height_above_pad / options.descent_speed + kSettleOnSkids);
+        std::min(options.longest_descent_s, c.place.z() / options.descent_speed + kSettleOnSkids);
   }
-  memory.state = SafetyState::kDescending;
-  raise(Failsafe::kNoPoseDescent);
-  if (toSeconds(c.now - memory.descending_since) > memory.descent_s) return cut(memory, Failsafe::kNoPoseCut);
-  return memory;
+}
+
+bool acts(const SafetyRule& rule, const SupervisorOptions& options, const SupervisorConditions& c,
+          const SupervisorMemory& memory, TimeNs& broken_since) {
+  const bool pose_is_fresh = c.pose_age_s <= options.coast_after_s;
+  const bool was_broken = broken_since >= 0;
+  const auto test = was_broken && rule.still_broken != nullptr ? rule.still_broken : rule.broken;
+  if (!inScope(rule.scope, c.phase) || (rule.needs_pose && !pose_is_fresh) || !test(options, memory, c)) {
+    broken_since = -1;
+    return false;
+  }
+  if (!was_broken) broken_since = c.now;
+  return rule.for_s == nullptr || toSeconds(c.now - broken_since) > options.*rule.for_s;
+}
+
+void goThroughTable(const SupervisorOptions& options, const SupervisorConditions& c,
+                    SupervisorMemory& memory) {
+  const auto& rules = safetyRules();
+  if (memory.state != SafetyState::kCut) memory.state = SafetyState::kNormal;
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const SafetyRule& rule = rules[i];
+    const std::uint32_t bit = bitOf(rule.failsafe);
+    const bool acts_now = acts(rule, options, c, memory, memory.broken_since[i]);
+    memory.alarms = (memory.alarms & ~bit) | (acts_now ? bit : 0);
+    if (acts_now && rule.stays) memory.latched |= bit;
+    if (acts_now && rule.demands != SafetyState::kNormal) memory.failsafes |= bit;
+    if (acts_now || (memory.latched & bit) != 0) memory.state = std::max(memory.state, rule.demands);
+  }
+}
+
+bool mayStayArmed(const SupervisorOptions& options, const SupervisorConditions& c, SupervisorMemory& memory) {
+  const auto longer = [&c](TimeNs since, double than_s) {
+    return since >= 0 && toSeconds(c.now - since) > than_s;
+  };
+  if (c.phase == FlightPhase::kOff) return false;
+  if (longer(memory.cut_since, options.disarm_after_cut_s)) return false;
+  if (c.phase != FlightPhase::kIdle) return true;
+  if (memory.failing_checks == 0)
+    memory.unfit_since = -1;
+  else if (memory.unfit_since < 0)
+    memory.unfit_since = c.now;
+  return !c.disarm && !longer(memory.unfit_since, kUnfitFor) &&
+         !longer(memory.armed_since, options.disarm_idle_s);
+}
+
+void armOrDisarm(const SupervisorOptions& options, const SupervisorConditions& c, SupervisorMemory& memory) {
+  memory.failing_checks = failingChecks(options, memory.state, c);
+  memory.refused = 0;
+  if (memory.armed) {
+    memory.armed = mayStayArmed(options, c, memory);
+  } else if (c.arm && !c.disarm) {
+    memory.refused = memory.failing_checks;
+    memory.armed = memory.failing_checks == 0;
+    memory.armed_since = c.now;
+    memory.unfit_since = -1;
+  }
 }
 
 }  // namespace
 
 SupervisorMemory supervise(const SupervisorOptions& options, const SupervisorMemory& before,
                            const SupervisorConditions& c) {
-  if (c.kill) return cut(before, Failsafe::kKill);
-  if (before.state == SafetyState::kCut || !rotorsTurn(c.phase)) return before;
   SupervisorMemory memory = before;
-  const bool pose_is_fresh = c.pose_age_s <= options.coast_after_s;
-
-  // Tilt and place mean something only while there is a pose.
-  if (pose_is_fresh && c.tilt > options.tilt_limit) {
-    if (memory.tilted_since < 0) memory.tilted_since = c.now;
-    if (toSeconds(c.now - memory.tilted_since) > options.tilt_time_s) return cut(memory, Failsafe::kTilt);
-  } else {
-    memory.tilted_since = -1;
-  }
-  if (c.lift_off_failed) return cut(memory, Failsafe::kLiftOffFailed);
-  if (inTheAir(c.phase) && pose_is_fresh) {
-    const double beyond =
-        std::max(c.distance_from_pad - options.fence_radius, c.height_above_pad - options.fence_height);
-    if (beyond > options.hard_fence_margin) return cut(memory, Failsafe::kHardFence);
-    if (beyond > 0.0) {
-      memory.state = SafetyState::kLandNow;
-      memory.failsafes |= static_cast<std::uint32_t>(Failsafe::kFence);
-    }
-  }
-  if (c.flight_time_s > options.flight_time_limit_s && inTheAir(c.phase)) {
-    if (memory.state == SafetyState::kNormal) memory.state = SafetyState::kLandNow;
-    memory.failsafes |= static_cast<std::uint32_t>(Failsafe::kFlightTime);
-  }
-  return withoutPose(options, memory, c);
+  memory.late_ticks = c.health.overrun_s > options.overrun_s ? before.late_ticks + 1 : 0;
+  trackDescent(options, c, memory);
+  goThroughTable(options, c, memory);
+  if (memory.state == SafetyState::kCut && memory.cut_since < 0) memory.cut_since = c.now;
+  armOrDisarm(options, c, memory);
+  return memory;
 }
 
 }  // namespace helical

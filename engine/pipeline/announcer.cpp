@@ -1,6 +1,9 @@
 #include "engine/pipeline/announcer.h"
 
+#include <bit>
 #include <cstdio>
+
+#include "engine/flight/supervisor.h"
 
 namespace helical {
 namespace {
@@ -25,30 +28,29 @@ const char* phaseText(FlightPhase phase) {
   return "";
 }
 
-struct SafetyText {
-  Severity severity;
-  const char* text;
-};
+constexpr TimeNs kRepeat =
+    30 * kNanosecondsPerSecond;  // a warning that comes and goes is not said more often
+constexpr TimeNs kNever = -kRepeat;
 
-SafetyText safetyText(SafetyState state) {
-  switch (state) {
+Severity severityOf(SafetyState demand) {
+  switch (demand) {
     case SafetyState::kNormal:
-      return {Severity::kGood, "Pose regained"};
+    case SafetyState::kHolding:
     case SafetyState::kCoasting:
-      return {Severity::kCaution, "No pose: coasting on trim"};
-    case SafetyState::kDescending:
-      return {Severity::kDanger, "No pose for 0.5 s: open-loop descent"};
+    case SafetyState::kNeutral:
+      return Severity::kCaution;
     case SafetyState::kLandNow:
-      return {Severity::kDanger, "Failsafe: lands where it is"};
+    case SafetyState::kDescending:
     case SafetyState::kCut:
-      return {Severity::kDanger, "Rotors cut, latched"};
+      return Severity::kDanger;
   }
-  return {Severity::kInfo, ""};
+  return Severity::kDanger;
 }
 
 }  // namespace
 
 Announcer::Announcer(const RigConfig& rig) {
+  warned_at_.fill(kNever);
   for (const auto& camera : rig.cameras) names_.push_back(camera.name);
 }
 
@@ -83,24 +85,53 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   if (now.gust_ordered && !gust_blew_) raise(event(now.time, Severity::kInfo, "A gust"));
   gust_blew_ = now.gust_ordered;
   if (now.phase != phase_) raise(event(now.time, Severity::kInfo, phaseText(now.phase)));
-  if (now.safety != safety_) {
-    const SafetyText text = safetyText(now.safety);
-    raise(event(now.time, text.severity, text.text));
-  }
+  announceArming(now, raise);
+  announceSafety(now, raise);
   phase_ = now.phase;
+}
+
+void Announcer::announceArming(const EngineSnapshot& now, const Sink& raise) {
+  if (now.armed && !armed_) raise(event(now.time, Severity::kCaution, "Armed: the rotors may turn"));
+  if (!now.armed && armed_) raise(event(now.time, Severity::kInfo, "Disarmed"));
+  armed_ = now.armed;
+  if (now.holding != holding_)
+    raise(event(now.time, Severity::kInfo, now.holding ? "Holds where it is" : "Hold ended"));
+  holding_ = now.holding;
+  for (std::uint32_t bits = now.arm_refused; bits != 0; bits &= bits - 1) {
+    std::array<char, 112> text{};
+    std::snprintf(text.data(), text.size(), "Not armed: %s",
+                  toString(static_cast<PreArmCheck>(bits & (~bits + 1))));
+    raise(event(now.time, Severity::kCaution, text.data()));
+  }
+}
+
+void Announcer::announceSafety(const EngineSnapshot& now, const Sink& raise) {
+  for (std::uint32_t bits = now.alarms & ~alarms_; bits != 0; bits &= bits - 1) {
+    const auto index = static_cast<std::size_t>(std::countr_zero(bits));
+    const SafetyRule& rule = safetyRules()[index];
+    const bool only_warns = rule.demands == SafetyState::kNormal;
+    if (only_warns && now.time - warned_at_[index] < kRepeat) continue;
+    warned_at_[index] = now.time;
+    raise(event(now.time, severityOf(rule.demands), messageOf(rule.failsafe)));
+  }
+  if (now.safety == SafetyState::kNormal && safety_ > SafetyState::kLandNow)
+    raise(event(now.time, Severity::kGood, "Pose regained"));
+  if (now.safety == SafetyState::kCut && safety_ != SafetyState::kCut)
+    raise(event(now.time, Severity::kDanger, "Rotors cut, latched"));
+  alarms_ = now.alarms;
   safety_ = now.safety;
 }
 
 void Announcer::announceRecord(const EngineSnapshot& now, const Sink& raise) {
-  if (now.record.cut_off && !record_.cut_off)
+  if (now.devices.record.cut_off && !record_.cut_off)
     raise(event(now.time, Severity::kDanger,
                 "The disk refuses the record: the flight goes on without one; see the log"));
   // Once: how much is lost, the counter tells.
-  if (now.record.lost > 0 && record_.lost == 0)
+  if (now.devices.record.lost > 0 && record_.lost == 0)
     raise(event(now.time, Severity::kCaution, "The disk is too slow: the record of this flight has gaps"));
-  if (now.record.lost_images > 0 && record_.lost_images == 0)
+  if (now.devices.record.lost_images > 0 && record_.lost_images == 0)
     raise(event(now.time, Severity::kCaution, "The disk is too slow: images are missing in the record"));
-  record_ = now.record;
+  record_ = now.devices.record;
 }
 
 void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise) {

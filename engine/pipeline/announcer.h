@@ -35,11 +35,17 @@ class Announcer {
     std::uint32_t knocks = 0;
   };
   void announceRecord(const EngineSnapshot& now, const Sink& raise);
+  void announceArming(const EngineSnapshot& now, const Sink& raise);
+  void announceSafety(const EngineSnapshot& now, const Sink& raise);
   void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
 
   std::vector<std::string> names_;
   FlightPhase phase_ = FlightPhase::kIdle;
   SafetyState safety_ = SafetyState::kNormal;
+  std::uint32_t alarms_ = 0;
+  std::array<TimeNs, kFailsafeCount> warned_at_;
+  bool armed_ = false;
+  bool holding_ = false;
   bool had_pose_ = false;
   bool gave_up_ = false;
   bool gust_blew_ = false;

@@ -131,7 +131,10 @@ struct Engine::Implementation {
   std::array<bool, kMaxCameras> has_head{};
   std::counting_semaphore<> arrived{0};
 
+  std::atomic<bool> arm{false};
+  std::atomic<bool> disarm{false};
   std::atomic<bool> take_off{false};
+  std::atomic<bool> hold{false};
   std::atomic<bool> land{false};
   std::array<std::atomic<bool>, kMaxCameras> hidden{};
   std::array<std::atomic<int>, kMaxCameras> boards{};  ///< how many; the capture threads have the boards
@@ -200,11 +203,17 @@ void Engine::Implementation::receive() {
 
 void Engine::Implementation::tick(TimeNs now) {
   OperatorCommands commands;
+  commands.arm = arm.exchange(false);
+  commands.disarm = disarm.exchange(false);
   commands.take_off = take_off.exchange(false);
+  commands.hold = hold.exchange(false);
   commands.land = land.exchange(false);
   commands.kill = output.stopped();
   takeCalibrations(now);
-  output.submit(loop.onTick(now, commands), now);
+  DeviceStatus devices;
+  devices.transmitter = output.transmitterStatus();
+  if (tap != nullptr) devices.record = tap->health();
+  output.submit(loop.onTick(now, commands, devices), now);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     hardware.orders[i]->expect(loop.expectedBalls(cameraId(static_cast<int>(i))));
 
@@ -213,7 +222,6 @@ void Engine::Implementation::tick(TimeNs now) {
   hardware.addTruth(snapshot, now);
   addOrders(snapshot);
   measureRate(snapshot);
-  if (tap != nullptr) snapshot.record = tap->health();
   showCalibrations(snapshot.tick, now);
   if (!tick_queue->push(snapshot)) lost.fetch_add(1, std::memory_order_relaxed);
   if (tap != nullptr) tap->onTick(commands, snapshot);
@@ -338,6 +346,15 @@ void Engine::stop() {
   implementation_->threads.clear();
 }
 
+void Engine::arm() {
+  implementation_->arm = true;
+}
+void Engine::disarm() {
+  implementation_->disarm = true;
+}
+void Engine::hold() {
+  implementation_->hold = true;
+}
 void Engine::takeOff() {
   implementation_->take_off = true;
 }

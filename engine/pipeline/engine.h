@@ -31,7 +31,10 @@ class Engine final : public FlightView {
   bool running() const;
 
   /// Commands: any thread, wait-free.
-  void takeOff();  ///< starts the plan from the ground
+  void arm();      ///< allows the rotors to turn, unless a pre-arm check fails: `arm_refused` tells which
+  void disarm();   ///< forbids it again; with the rotors off
+  void takeOff();  ///< starts the plan from the ground, if it is armed; in the air, ends a hold
+  void hold();     ///< stays where it is
   void land();     ///< lands where it is
   void kill();     ///< rotors off at once, latched; bypasses every queue
   void hideCamera(CameraId camera, bool hidden);

@@ -33,6 +33,7 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
       tracker_(makeTracker(rig.tracker, rig.tracking, rig.markers_in_body, models(rig),
                            rig.helicopter.standing_height)),
       control_set_(rig),
+      health_(rig),
       autopilot_(plan, rig.control, rig.safety, rig.helicopter) {
   snapshot_.camera_count = static_cast<int>(rig.cameras.size());
   snapshot_.marker_count = rig.markers_in_body.count();
@@ -42,6 +43,7 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   const TimeNs begin = stopwatch().now();
   const auto index = static_cast<std::size_t>(observation.camera.index());
   count(observation, now);
+  health_.onObservation(observation, now);
   if (now - observation.exposure > kLatest) return;
   const TimeNs last_update = tracker_->lastUpdate();
   tracker_->update(observation, control_set_.estimates(), control_set_.usable(), airborne_);
@@ -68,7 +70,8 @@ void FlightLoop::count(const Observation& observation, TimeNs now) {
   if (observation.extraction > 0) extraction_time_[index].add(observation.extraction);
 }
 
-const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& commands) {
+const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& commands,
+                                      const DeviceStatus& devices) {
   const TimeNs begin = stopwatch().now();
   AutopilotInput input;
   input.now = now;
@@ -76,6 +79,8 @@ const StickDemand& FlightLoop::onTick(TimeNs now, const OperatorCommands& comman
   input.pose_age_s = toSeconds(now - pose_time_);
   input.state = tracker_->predict(now + fromSeconds(rig_.control.output_delay_s), airborne_).state;
   input.commands = commands;
+  input.health = health_.onTick(now, control_set_.usable(), snapshot_, devices);
+  snapshot_.devices = devices;
   const AutopilotOutput output = autopilot_.step(input);
   airborne_ = output.airborne;
   fillSnapshot(now, output);
@@ -101,6 +106,11 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.phase = output.phase;
   snapshot_.safety = output.safety;
   snapshot_.failsafes = output.failsafes;
+  snapshot_.alarms = output.alarms;
+  snapshot_.armed = output.armed;
+  snapshot_.failing_checks = output.failing_checks;
+  snapshot_.arm_refused = output.arm_refused;
+  snapshot_.holding = output.holding;
   snapshot_.tracked = tracker_->predict(now, airborne_);
   snapshot_.set_point = output.set_point;
   snapshot_.hovering = output.hovering;

@@ -7,6 +7,7 @@
 #include "engine/flight/autopilot.h"
 #include "engine/markers/ball_prediction.h"
 #include "engine/pipeline/control_set.h"
+#include "engine/pipeline/health_monitor.h"
 #include "engine/pipeline/snapshot.h"
 #include "engine/tracking/tracker.h"
 
@@ -23,7 +24,7 @@ class FlightLoop {
   void onObservation(const Observation& observation, TimeNs now);
 
   /// One control tick: the sticks to send now.
-  const StickDemand& onTick(TimeNs now, const OperatorCommands& commands);
+  const StickDemand& onTick(TimeNs now, const OperatorCommands& commands, const DeviceStatus& devices = {});
 
   /// The operator hides a camera: its observations count as frames, but nothing they show is used.
   void hideCamera(CameraId camera, bool hidden) { control_set_.hide(camera, hidden); }
@@ -56,6 +57,7 @@ class FlightLoop {
   RigConfig rig_;
   std::unique_ptr<Tracker> tracker_;
   ControlSet control_set_;
+  HealthMonitor health_;
   Autopilot autopilot_;
   EngineSnapshot snapshot_;
   std::array<CameraCounters, kMaxCameras> counters_;

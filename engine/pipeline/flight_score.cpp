@@ -17,7 +17,8 @@ constexpr std::uint32_t kEndingFailsafes =
     static_cast<std::uint32_t>(Failsafe::kNoPoseCut) | static_cast<std::uint32_t>(Failsafe::kTilt) |
     static_cast<std::uint32_t>(Failsafe::kFence) | static_cast<std::uint32_t>(Failsafe::kHardFence) |
     static_cast<std::uint32_t>(Failsafe::kFlightTime) | static_cast<std::uint32_t>(Failsafe::kKill) |
-    static_cast<std::uint32_t>(Failsafe::kLiftOffFailed);
+    static_cast<std::uint32_t>(Failsafe::kLiftOffFailed) | bitOf(Failsafe::kUncertainLand) |
+    bitOf(Failsafe::kSpeed) | bitOf(Failsafe::kTransmitterLost);
 
 double normalised(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
   return error.dot(covariance.ldlt().solve(error));
@@ -33,6 +34,8 @@ void FlightScore::add(const EngineSnapshot& tick) {
   const double dt = last_time_ > 0 ? toSeconds(tick.time - last_time_) : 0.0;
   last_time_ = tick.time;
   failsafes_ |= tick.failsafes;
+  failing_checks_ = tick.failing_checks;
+  armed_ = armed_ || tick.armed;
   if (!rotorsTurn(tick.phase)) return;
   if (!tick.pose_known) lost_s_ += dt;
   for (std::size_t c = 0; c < static_cast<std::size_t>(tick.camera_count); ++c) {
@@ -103,6 +106,13 @@ std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes) {
   if (verdict.crashed) return "crashed";
   if (!verdict.has_flown || !verdict.at_rest) return "aborted";
   return (failsafes & kEndingFailsafes) != 0 ? "failsafe-landed" : "landed";
+}
+
+std::vector<std::string> checkReasons(std::uint32_t failing_checks) {
+  std::vector<std::string> reasons;
+  for (std::uint32_t bits = failing_checks; bits != 0; bits &= bits - 1)
+    reasons.emplace_back(toString(static_cast<PreArmCheck>(bits & (~bits + 1))));
+  return reasons;
 }
 
 std::vector<std::string> failsafeNames(std::uint32_t failsafes) {

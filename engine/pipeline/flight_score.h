@@ -50,6 +50,8 @@ class FlightScore {
     return converged_s_[static_cast<std::size_t>(camera.index())];
   }
   std::uint32_t failsafes() const { return failsafes_; }
+  /// Pre-arm checks that still failed at the end of a flight that was never armed; 0 for any other.
+  std::uint32_t unarmedBecause() const { return armed_ ? 0 : failing_checks_; }
 
  private:
   double mean(double sum) const { return nees_samples_ > 0 ? sum / static_cast<double>(nees_samples_) : 0.0; }
@@ -64,6 +66,8 @@ class FlightScore {
   TimeNs last_time_ = 0;
   TimeNs hover_since_ = -1;
   std::uint32_t failsafes_ = 0;
+  std::uint32_t failing_checks_ = 0;
+  bool armed_ = false;
   std::array<std::uint64_t, kMaxCameras> selected_{};
   std::array<std::uint64_t, kMaxCameras> shown_{};
   std::array<TimeNs, kMaxCameras> last_exposure_{};
@@ -87,6 +91,9 @@ double calibrationNees(const CameraEstimate& estimate, const RigidTransform& tru
 
 /// "landed", "crashed", "failsafe-landed" or "aborted", as `helical fly` reports it.
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes);
+
+/// The reasons of the checks in a bit set.
+std::vector<std::string> checkReasons(std::uint32_t failing_checks);
 
 /// Names of the failsafes in a bit set.
 std::vector<std::string> failsafeNames(std::uint32_t failsafes);

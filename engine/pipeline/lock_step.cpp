@@ -1,5 +1,6 @@
 #include "engine/pipeline/lock_step.h"
 
+#include "engine/base/error.h"
 #include "engine/pipeline/calibration_view.h"
 
 namespace helical {
@@ -7,12 +8,20 @@ namespace {
 
 constexpr TimeNs kStep = kNanosecondsPerMillisecond;
 
+/// An output process has the wall's clock.
+const RigConfig& onSimulatedTime(const RigConfig& rig) {
+  if (rig.transmitter.kind != "simulated")
+    throw Error(ErrorKind::kInput, "the transmitter '" + rig.transmitter.kind + "' flies in real time only",
+                rig.path, "fly with --realtime, or use kind = \"simulated\"");
+  return rig;
+}
+
 }  // namespace
 
 LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
     : rig_(rig),
       clock_(std::make_shared<ManualClock>()),
-      hardware_(openRig(rig, clock_,
+      hardware_(openRig(onSimulatedTime(rig), clock_,
                         [tap](const Frame& frame, const Observation& observation) {
                           if (tap != nullptr) tap->onFrame(frame, observation);
                         })),
@@ -34,7 +43,10 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   if (commands.kill) output_.kill();
   OperatorCommands gated = commands;
   gated.kill = output_.stopped();
-  output_.submit(loop_.onTick(now, gated), now);
+  DeviceStatus devices;
+  devices.transmitter = output_.transmitterStatus();
+  if (tap_ != nullptr) devices.record = tap_->health();
+  output_.submit(loop_.onTick(now, gated, devices), now);
   for (std::size_t i = 0; i < hardware_.orders.size(); ++i)
     hardware_.orders[i]->expect(loop_.expectedBalls(cameraId(static_cast<int>(i))));
   output_.step(now);
@@ -45,7 +57,6 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
 }
 
 void LockStep::show(const OperatorCommands& commands, TimeNs now) {
-  snapshot_.record = tap_->health();
   for (int i = 0; snapshot_.tick % kCalibrationViewTicks == 0 && i < snapshot_.camera_count; ++i) {
     const CameraCalibration* calibration = loop_.calibration(cameraId(i));
     if (calibration == nullptr) continue;

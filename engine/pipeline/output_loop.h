@@ -4,6 +4,7 @@
 
 #include "engine/base/latest_value.h"
 #include "engine/base/time.h"
+#include "engine/transmitter/output_guard.h"
 #include "engine/transmitter/transmitter.h"
 
 namespace helical {
@@ -13,7 +14,8 @@ namespace helical {
 /// Kill bypasses the queue: it acts at the next `step`, whatever the flight thread does.
 class OutputLoop {
  public:
-  explicit OutputLoop(Transmitter& transmitter) : transmitter_(transmitter) {}
+  explicit OutputLoop(Transmitter& transmitter, const OutputGuardOptions& options = {})
+      : transmitter_(transmitter), guard_(options, false) {}
 
   /// Flight thread.
   void submit(const StickDemand& demand, TimeNs now);
@@ -24,6 +26,11 @@ class OutputLoop {
   bool gaveUp() const { return gave_up_.load(std::memory_order_acquire); }
   /// Nothing but zero will be sent any more.
   bool stopped() const { return killed() || gaveUp(); }
+  /// Flight thread: how the transmitter was at the last `step`.
+  const TransmitterStatus& transmitterStatus() {
+    status_.take();
+    return status_.front();
+  }
   /// Output thread: sends what the helicopter should get now.
   void step(TimeNs now);
 
@@ -32,10 +39,12 @@ class OutputLoop {
     StickDemand demand;
     TimeNs time = 0;
   };
-  StickDemand neutralRamp(TimeNs silent_for) const;
+  void send(const StickDemand& demand, TimeNs now);
 
   Transmitter& transmitter_;
+  OutputGuard guard_;  ///< output thread
   LatestValue<Stamped> newest_;
+  LatestValue<TransmitterStatus> status_;
   std::atomic<bool> killed_{false};
   std::atomic<bool> gave_up_{false};
 };

@@ -1,5 +1,7 @@
 #include "engine/pipeline/rig_hardware.h"
 
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/markers/ignoring_source.h"
 #include "engine/simulator/disturbed_source.h"
@@ -7,8 +9,48 @@
 #include "engine/simulator/simulated_camera.h"
 #include "engine/simulator/simulated_observer.h"
 #include "engine/simulator/simulated_transmitter.h"
+#include "engine/transmitter/output_process.h"
 
 namespace helical {
+namespace {
+
+template <std::size_t N>
+void copyText(const std::string& from, std::array<char, N>& to, const std::string& where) {
+  if (from.size() >= N)
+    throw Error(ErrorKind::kInput, "'" + from + "' is too long for the output process", where,
+                "give a shorter one");
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+/// The simulated transmitter behind a real output process: what that puts out is what the helicopter gets.
+class LoopbackTransmitter final : public Transmitter {
+ public:
+  LoopbackTransmitter(const OutputSettings& settings, std::unique_ptr<Transmitter> to_helicopter)
+      : process_(settings, OutputProcess::findProgram()), to_helicopter_(std::move(to_helicopter)) {}
+
+  void send(const StickDemand& demand, TimeNs now) override {
+    process_.send(demand, now);
+    to_helicopter_->send(process_.status().present ? process_.report().output : StickDemand{}, now);
+  }
+  TransmitterStatus status() const override { return process_.status(); }
+
+ private:
+  OutputProcess process_;
+  std::unique_ptr<Transmitter> to_helicopter_;
+};
+
+std::unique_ptr<Transmitter> openTransmitter(const RigConfig& rig, const std::shared_ptr<World>& world) {
+  auto simulated = std::make_unique<SimulatedTransmitter>(rig.simulation, world);
+  if (rig.transmitter.kind == "simulated") return simulated;
+  OutputSettings settings;
+  copyText(rig.transmitter.kind, settings.device, rig.path);
+  copyText(rig.transmitter.device, settings.address, rig.path);
+  settings.rate_hz = rig.transmitter.rate_hz;
+  settings.guard = rig.transmitter.guard;
+  return std::make_unique<LoopbackTransmitter>(settings, std::move(simulated));
+}
+
+}  // namespace
 
 void RigHardware::addTruth(EngineSnapshot& snapshot, TimeNs now) const {
   if (!world) return;
@@ -70,7 +112,7 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
           std::make_unique<IgnoringSource>(std::move(boarded), hardware.orders.back()));
     }
   }
-  hardware.transmitter = std::make_unique<SimulatedTransmitter>(rig.simulation, hardware.world);
+  hardware.transmitter = openTransmitter(rig, hardware.world);
   return hardware;
 }
 

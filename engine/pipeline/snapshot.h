@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "engine/helicopter/stick_demand.h"
 #include "engine/simulator/verdict.h"
 #include "engine/tracking/track.h"
+#include "engine/transmitter/transmitter_status.h"
 
 namespace helical {
 
@@ -42,8 +44,15 @@ struct CameraSnapshot {
 struct RecordHealth {
   bool recording = false;
   bool cut_off = false;           ///< the disk refused: nothing is recorded any more
+  bool stalled = false;           ///< the newest item did not fit: the disk is too slow
   std::uint64_t lost = 0;         ///< observations, ticks and events for which the disk was too slow
   std::uint64_t lost_images = 0;  ///< likewise
+  double disk_free_gb = std::numeric_limits<double>::infinity();
+};
+
+/// What the flight thread is told of the devices around it at a control tick.
+struct DeviceStatus {
+  TransmitterStatus transmitter;
 };
 
 /// The engine's state at one control tick; a plain value, copied to readers through a LatestValue.
@@ -56,8 +65,14 @@ struct EngineSnapshot {
   TimeNs pose_age = 0;      ///< since the last accepted observation
   FlightPhase phase = FlightPhase::kIdle;
   SafetyState safety = SafetyState::kNormal;
-  std::uint32_t failsafes = 0;  ///< bits of Failsafe that have acted
-  TrackedState tracked;         ///< at `time`
+  std::uint32_t failsafes = 0;       ///< bits of Failsafe that have acted
+  std::uint32_t alarms = 0;          ///< bits of Failsafe, warnings included, that act now
+  bool armed = false;                ///< the rotors may turn
+  std::uint32_t failing_checks = 0;  ///< bits of PreArmCheck: why it would not arm now
+  std::uint32_t arm_refused = 0;     ///< at the tick when an order to arm is refused: the checks that failed
+  bool holding = false;              ///< by the operator's order
+  DeviceStatus devices;              ///< as they were told at this tick
+  TrackedState tracked;              ///< at `time`
   SetPoint set_point;
   bool hovering = false;       ///< has reached the first waypoint and is not landing
   double flight_time_s = 0.0;  ///< since the rotors started
@@ -74,7 +89,6 @@ struct EngineSnapshot {
   TimeNs frame_to_command_p50 = 0;  ///< arrival of a camera's newest frame to the tick that first used it
   TimeNs frame_to_command_p99 = 0;
   double ticks_per_second = 0.0;
-  RecordHealth record;
   std::array<CameraSnapshot, kMaxCameras> cameras{};
 };
 

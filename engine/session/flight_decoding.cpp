@@ -66,6 +66,20 @@ Centroid getCentroid(CdrReader& in) {
   return centroid;
 }
 
+DeviceStatus getDevices(CdrReader& in) {
+  DeviceStatus devices;
+  TransmitterStatus& transmitter = devices.transmitter;
+  RecordHealth& record = devices.record;
+  for (bool* value : {&transmitter.present, &transmitter.self_test_passed, &transmitter.channels_calibrated,
+                      &transmitter.fault, &transmitter.pilot_flies, &transmitter.bench, &record.recording,
+                      &record.cut_off, &record.stalled})
+    *value = in.getBool();
+  record.lost = in.get<std::uint64_t>();
+  record.lost_images = in.get<std::uint64_t>();
+  record.disk_free_gb = in.get<double>();
+  return devices;
+}
+
 }  // namespace
 
 DecodedObservation decodeObservation(std::string_view payload) {
@@ -94,7 +108,10 @@ DecodedTick decodeFlightState(std::string_view payload, EngineSnapshot& state, W
   tick.order = in.get<std::uint64_t>();
   state.time = in.get<TimeNs>();
   state.tick = in.get<std::uint64_t>();
+  tick.commands.arm = in.getBool();
+  tick.commands.disarm = in.getBool();
   tick.commands.take_off = in.getBool();
+  tick.commands.hold = in.getBool();
   tick.commands.land = in.getBool();
   tick.commands.kill = in.getBool();
   state.phase = getEnum(in, FlightPhase::kOff);
@@ -102,6 +119,12 @@ DecodedTick decodeFlightState(std::string_view payload, EngineSnapshot& state, W
   state.safety = getEnum(in, SafetyState::kCut);
   in.getText();
   state.failsafes = in.get<std::uint32_t>();
+  state.alarms = in.get<std::uint32_t>();
+  state.armed = in.getBool();
+  state.failing_checks = in.get<std::uint32_t>();
+  state.arm_refused = in.get<std::uint32_t>();
+  state.holding = in.getBool();
+  tick.devices = state.devices = getDevices(in);
   state.pose_known = in.getBool();
   state.pose_age = in.get<TimeNs>();
   state.hovering = in.getBool();

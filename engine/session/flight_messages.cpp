@@ -89,6 +89,17 @@ void putCentroid(CdrWriter& out, const Centroid& centroid, const CameraTrack& tr
   out.putAll(named.reprojected);
 }
 
+void putDevices(CdrWriter& out, const DeviceStatus& devices) {
+  const TransmitterStatus& transmitter = devices.transmitter;
+  for (const bool value : {transmitter.present, transmitter.self_test_passed, transmitter.channels_calibrated,
+                           transmitter.fault, transmitter.pilot_flies, transmitter.bench,
+                           devices.record.recording, devices.record.cut_off, devices.record.stalled})
+    out.put(value);
+  out.put(devices.record.lost);
+  out.put(devices.record.lost_images);
+  out.put(devices.record.disk_free_gb);
+}
+
 }  // namespace
 
 std::string cameraFrame(const CameraConfig& camera) {
@@ -265,7 +276,10 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
   out.put(order);
   out.put(state.time);
   out.put(state.tick);
+  out.put(tick.commands.arm);
+  out.put(tick.commands.disarm);
   out.put(tick.commands.take_off);
+  out.put(tick.commands.hold);
   out.put(tick.commands.land);
   out.put(tick.commands.kill);
   out.put(static_cast<std::uint8_t>(state.phase));
@@ -273,6 +287,12 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
   out.put(static_cast<std::uint8_t>(state.safety));
   out.putText(toString(state.safety));
   out.put(state.failsafes);
+  out.put(state.alarms);
+  out.put(state.armed);
+  out.put(state.failing_checks);
+  out.put(state.arm_refused);
+  out.put(state.holding);
+  putDevices(out, state.devices);
   out.put(state.pose_known);
   out.put(state.pose_age);
   out.put(state.hovering);

@@ -73,6 +73,7 @@ class Words {
 struct DecodedTick {
   std::uint64_t order = 0;
   OperatorCommands commands;
+  DeviceStatus devices;
 };
 /// `state` gets what the message holds.
 DecodedTick decodeFlightState(std::string_view payload, EngineSnapshot& state, Words& words);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <limits>
 
 #include "engine/base/log.h"
 
@@ -21,11 +22,20 @@ void stepBack() {
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
 }
 
+/// What cannot be found out does not forbid to fly.
+double freeGigabytes(const std::filesystem::path& folder) {
+  std::error_code failure;
+  const auto space = std::filesystem::space(folder, failure);
+  return failure ? std::numeric_limits<double>::infinity() : 1e-9 * static_cast<double>(space.available);
+}
+
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& file, const SessionSettings& settings, WhenFull when_full,
                    WhenRefused when_refused)
-    : when_full_(when_full) {
+    : folder_(std::filesystem::absolute(file).parent_path()),
+      when_full_(when_full),
+      disk_free_gb_(freeGigabytes(folder_)) {
   const auto open = [&] { writer_ = std::make_unique<SessionWriter>(file, settings); };
   if (when_refused == WhenRefused::kThrow)
     open();
@@ -80,7 +90,8 @@ void Recorder::onBelief(CameraId camera, const CalibrationView& belief, TimeNs n
 }
 
 RecordHealth Recorder::health() const {
-  return {!failed(), failed(), lost(), lostImages()};
+  return {!failed(), failed(),     losing_.load(std::memory_order_relaxed),
+          lost(),    lostImages(), disk_free_gb_.load(std::memory_order_relaxed)};
 }
 
 void Recorder::onFrame(const Frame& frame, const Observation&) {
@@ -99,10 +110,12 @@ void Recorder::push() {
   while (!queue_->push(next_)) {
     if (when_full_ == WhenFull::kDrop) {
       lost_.fetch_add(1, std::memory_order_relaxed);
+      losing_.store(true, std::memory_order_relaxed);
       return;
     }
     std::this_thread::sleep_for(kShortPause);
   }
+  losing_.store(false, std::memory_order_relaxed);
 }
 
 void Recorder::finish() {
@@ -157,6 +170,7 @@ void Recorder::run() {
         writer_->flush();
         writer_->sync();
       });
+      disk_free_gb_.store(freeGigabytes(folder_), std::memory_order_relaxed);
       synced = clock_.now();
     } else if (!busy && !last) {
       std::this_thread::sleep_for(kPause);

@@ -69,6 +69,7 @@ class Recorder final : public FlightTap {
   bool writeFrames();
   void attempt(const std::function<void()>& step);
 
+  std::filesystem::path folder_;
   std::unique_ptr<SessionWriter> writer_;
   WhenFull when_full_;
   std::unique_ptr<Queue> queue_ = std::make_unique<Queue>();
@@ -77,6 +78,8 @@ class Recorder final : public FlightTap {
   bool has_images_ = false;
   std::atomic<std::uint64_t> lost_{0}, lost_images_{0};
   std::atomic<bool> failed_{false};
+  std::atomic<bool> losing_{false};  ///< the newest item did not fit
+  std::atomic<double> disk_free_gb_;
   MonotonicClock clock_;
   std::unique_ptr<FlightItem> item_ = std::make_unique<FlightItem>();  ///< writing thread
   std::string failure_;                                                ///< writing thread, before `failed_`

@@ -78,7 +78,7 @@ class Player {
 
   void tick(const DecodedTick& decoded) {
     countMissing(decoded.order);
-    loop_.onTick(state_.time, decoded.commands);
+    loop_.onTick(state_.time, decoded.commands, decoded.devices);
     EngineSnapshot now = loop_.snapshot();
     addTruth(now);
     compare(now);

@@ -17,9 +17,20 @@ namespace {
 using testing::ElementsAre;
 
 constexpr double kTick = 1.0 / 60.0;
-constexpr OperatorCommands kTakeOff{.take_off = true, .land = false, .kill = false};
-constexpr OperatorCommands kLand{.take_off = false, .land = true, .kill = false};
-constexpr OperatorCommands kKill{.take_off = false, .land = false, .kill = true};
+OperatorCommands only(bool OperatorCommands::*order) {
+  OperatorCommands commands;
+  commands.*order = true;
+  return commands;
+}
+/// Armed in the same tick.
+const OperatorCommands kTakeOff = [] {
+  OperatorCommands commands = only(&OperatorCommands::take_off);
+  commands.arm = true;
+  return commands;
+}();
+const OperatorCommands kLand = only(&OperatorCommands::land);
+const OperatorCommands kHold = only(&OperatorCommands::hold);
+const OperatorCommands kKill = only(&OperatorCommands::kill);
 
 bool raised(const AutopilotOutput& output, Failsafe failsafe) {
   return (output.failsafes & static_cast<std::uint32_t>(failsafe)) != 0;
@@ -103,38 +114,80 @@ TEST(Autopilot, RestsUntilItIsToldToTakeOff) {
   }
 }
 
-TEST(Autopilot, TakeOffBeforeThePoseIsKnownIsNotLost) {
+TEST(Autopilot, TakesOffOnlyWhenItIsArmed) {
   Flight flight;
-  flight.input.pose_known = false;
-  flight.tick(kTakeOff);
+  flight.tick(only(&OperatorCommands::take_off));
+  EXPECT_STREQ(flight.output.refusal, "it is not armed");
+  flight.tick(only(&OperatorCommands::arm));
+  EXPECT_TRUE(flight.output.armed);
+  EXPECT_EQ(flight.output.arm_refused, 0u);
   flight.run(2.0);
-  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
-  flight.input.pose_known = true;
-  flight.tick();
+  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle) << "the order that was refused is not kept";
+  flight.tick(only(&OperatorCommands::disarm));
+  EXPECT_FALSE(flight.output.armed);
+  flight.tick(only(&OperatorCommands::take_off));
+  EXPECT_STREQ(flight.output.refusal, "it is not armed");
+  flight.tick(kTakeOff);
   EXPECT_EQ(flight.output.phase, FlightPhase::kSpinUp);
 }
 
-TEST(Autopilot, LandBeforeThePoseIsKnownTakesTheTakeOffBack) {
+TEST(Autopilot, DoesNotArmBeforeThePoseIsKnown) {
   Flight flight;
   flight.input.pose_known = false;
   flight.tick(kTakeOff);
-  flight.tick(kLand);
+  EXPECT_FALSE(flight.output.armed);
+  EXPECT_NE(flight.output.arm_refused & bitOf(PreArmCheck::kPose), 0u);
+  EXPECT_STREQ(flight.output.refusal, "the helicopter is not seen");
   flight.input.pose_known = true;
   flight.run(2.0);
   EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
+}
+
+TEST(Autopilot, LandTakesAWaitingTakeOffBack) {
+  FlightPlan plan = shortHover();
+  plan.start_delay_s = 3.0;
+  Flight flight(plan);
+  flight.tick(kTakeOff);
+  flight.tick(kLand);
+  flight.run(5.0);
+  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
+}
+
+TEST(Autopilot, HoldsWhereItIsUntilItIsToldToGoOn) {
+  FlightPlan plan;
+  plan.land_at_s = 0.0;
+  plan.waypoints = {{{0, 0, 0.4}, 0.0, 0.0, 0.3}, {{0.6, 0, 0.4}, 0.0, 0.5, 0.2}};
+  Flight flight(plan);
+  flight.tick(kTakeOff);
+  ASSERT_TRUE(flight.runUntil(FlightPhase::kFlying));
+  while (flight.output.set_point.position_in_world.x() < 0.2) flight.tick();
+  flight.tick(kHold);
+  EXPECT_TRUE(flight.output.holding);
+  flight.run(15.0);
+  EXPECT_EQ(flight.output.phase, FlightPhase::kFlying);
+  EXPECT_NEAR(flight.dynamics.state().world_from_body.translation.x(), 0.2, 0.05);
+  flight.tick(only(&OperatorCommands::take_off));
+  EXPECT_FALSE(flight.output.holding);
+  ASSERT_TRUE(flight.runUntil(FlightPhase::kOff));
+  EXPECT_NEAR(flight.dynamics.state().world_from_body.translation.x(), 0.6, 0.1);
 }
 
 TEST(Autopilot, DoesNotStartOnAnOldPose) {
-  Flight flight;
+  FlightPlan plan = shortHover();
+  plan.start_delay_s = 1.0;
+  Flight flight(plan);
   flight.run(0.1);
-  flight.blind = true;
-  flight.run(0.2);
   flight.tick(kTakeOff);
-  flight.run(1.0);
-  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
+  EXPECT_TRUE(flight.output.armed);
+  flight.blind = true;
+  std::string refusal;
+  for (int i = 0; i < 120; ++i)
+    if (flight.tick().refusal != nullptr) refusal = flight.output.refusal;
+  EXPECT_FALSE(flight.output.armed);
+  EXPECT_EQ(refusal, "the helicopter is not seen");
   flight.blind = false;
-  flight.tick();
-  EXPECT_EQ(flight.output.phase, FlightPhase::kSpinUp);
+  flight.run(3.0);
+  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle) << "and does not when it comes back";
 }
 
 TEST(Autopilot, MeasuresThePadBeforeTheStart) {
@@ -155,19 +208,6 @@ TEST(Autopilot, WaitsTheDelayOfThePlanFromWhenItIsFirstSeen) {
   EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
   flight.run(0.4);
   EXPECT_EQ(flight.output.phase, FlightPhase::kSpinUp);
-}
-
-TEST(Autopilot, AnOrderThatCannotBeCarriedOutIsRefusedNotKept) {
-  Flight flight;
-  flight.input.pose_known = false;
-  flight.tick(kTakeOff);
-  std::string refusal;
-  for (int i = 0; i < 400; ++i)
-    if (flight.tick().refusal != nullptr) refusal = flight.output.refusal;
-  EXPECT_EQ(refusal, "the helicopter is not seen");
-  flight.input.pose_known = true;
-  flight.run(2.0);
-  EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
 }
 
 TEST(Autopilot, StartsOnlyStandingStillAndUprightOnThePad) {
@@ -256,7 +296,9 @@ TEST(Autopilot, KillStopsTheRotorsAtOnceInEveryPhaseAndForGood) {
 
 TEST(Autopilot, KillWinsOverTakeOffInTheSameTick) {
   Flight flight;
-  flight.tick({.take_off = true, .land = false, .kill = true});
+  OperatorCommands both = kTakeOff;
+  both.kill = true;
+  flight.tick(both);
   flight.run(2.0);
   EXPECT_EQ(flight.output.phase, FlightPhase::kIdle);
   EXPECT_EQ(flight.output.safety, SafetyState::kCut);
@@ -269,7 +311,7 @@ TEST(Autopilot, FliesOnAfterAShortGap) {
   flight.run(4.0);
   flight.blind = true;
   flight.run(0.3);
-  EXPECT_EQ(flight.output.safety, SafetyState::kCoasting);
+  EXPECT_EQ(flight.output.safety, SafetyState::kNeutral);
   EXPECT_EQ(flight.output.phase, FlightPhase::kFlying);
   flight.blind = false;
   flight.tick();
@@ -334,18 +376,34 @@ TEST(Autopilot, GivesUpALiftOffThatDoesNotLift) {
   EXPECT_GT(highest_throttle, 1.5 * HelicopterParameters::xrb().hoverStickUpper());
 }
 
-TEST(Autopilot, LandsAtTheFence) {
+TEST(Autopilot, IsPushedBackFromTheFenceWhereverThePlanLeads) {
   FlightPlan plan;
-  plan.waypoints = {{{0, 0, 0.4}, 0.0, 0.0, 0.3}, {{0.8, 0, 0.4}, 0.0, 0.0, 0.3}};
-  plan.land_at_s = 60.0;
+  plan.waypoints = {{{0, 0, 0.4}, 0.0, 0.0, 0.3}, {{0.8, 0, 0.4}, 0.0, 3.0, 0.3}};
+  plan.land_at_s = 25.0;
   SupervisorOptions safety;
-  safety.fence_radius = 0.4;
+  safety.fence_radius = 0.5;
   Flight flight(plan, safety);
   flight.tick(kTakeOff);
+  double farthest = 0.0;
+  for (int i = 0; i < 1440; ++i) farthest = std::max(farthest, flight.tick().set_point.position_in_world.x());
+  EXPECT_GT(farthest, 0.7) << "the plan goes on";
+  EXPECT_NEAR(flight.dynamics.state().world_from_body.translation.x(), 0.3, 0.05);
   ASSERT_TRUE(flight.runUntil(FlightPhase::kOff));
+  EXPECT_EQ(flight.output.failsafes, 0u);
+}
+
+TEST(Autopilot, LandsBeyondTheFence) {
+  Flight flight;
+  flight.tick(kTakeOff);
+  ASSERT_TRUE(flight.runUntil(FlightPhase::kFlying));
+  flight.run(1.0);
+  flight.blind = true;  // states come from here alone
+  flight.input.pose_age_s = -1.0;
+  flight.input.state.world_from_body.translation.x() = 1.6;
+  flight.tick();
+  EXPECT_EQ(flight.output.phase, FlightPhase::kLanding);
   EXPECT_TRUE(raised(flight.output, Failsafe::kFence));
   EXPECT_FALSE(raised(flight.output, Failsafe::kHardFence));
-  EXPECT_NEAR(flight.dynamics.state().world_from_body.translation.x(), 0.45, 0.15) << "where it is";
 }
 
 }  // namespace

@@ -86,6 +86,16 @@ TEST(SupervisorOptions, DefaultsAreValid) {
 TEST(SupervisorOptions, NamesEveryKeyOutOfItsRange) {
   using O = SupervisorOptions;
   const Key<O> limits[] = {{"coast_after_s", &O::coast_after_s},
+                           {"neutral_after_s", &O::neutral_after_s},
+                           {"speed_limit", &O::speed_limit},
+                           {"fence_half_x", &O::fence_half_x},
+                           {"fence_half_y", &O::fence_half_y},
+                           {"fence_warning_margin", &O::fence_warning_margin},
+                           {"residual_limit", &O::residual_limit},
+                           {"position_sigma_limit", &O::position_sigma_limit},
+                           {"arm_cameras", &O::arm_cameras},
+                           {"arm_rate_share", &O::arm_rate_share},
+                           {"disarm_idle_s", &O::disarm_idle_s},
                            {"descend_after_s", &O::descend_after_s},
                            {"descent_speed", &O::descent_speed},
                            {"longest_descent_s", &O::longest_descent_s},
@@ -103,10 +113,23 @@ TEST(SupervisorOptions, NamesEveryKeyOutOfItsRange) {
     }
 }
 
-TEST(SupervisorOptions, DescentFollowsTheCoast) {
+TEST(SupervisorOptions, DescentFollowsNeutralSticksAndThoseTheCoast) {
   SupervisorOptions options;
-  options.descend_after_s = options.coast_after_s;
+  options.descend_after_s = options.neutral_after_s;
   EXPECT_THAT(complaintAbout(options), HasSubstr("descend_after_s"));
+  options = {};
+  options.neutral_after_s = options.coast_after_s;
+  EXPECT_THAT(complaintAbout(options), HasSubstr("neutral_after_s"));
+}
+
+TEST(SupervisorOptions, TheFenceLeavesRoomToBePushedBackTo) {
+  SupervisorOptions options;
+  options.fence_radius = options.fence_warning_margin;
+  EXPECT_THAT(complaintAbout(options), HasSubstr("fence_warning_margin"));
+  options.fence = FenceShape::kBox;
+  EXPECT_EQ(complaintAbout(options), "none");
+  options.arm_rate_share = 1.1;
+  EXPECT_THAT(complaintAbout(options), HasSubstr("arm_rate_share"));
 }
 
 TEST(FlightPlan, DefaultIsValid) {

@@ -2,66 +2,43 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/random.h"
+#include "tests/flight/supervised_flight.h"
 
 namespace helical {
 namespace {
 
-constexpr double kTick = 1.0 / 60.0;
-
-bool raised(const SupervisorMemory& memory, Failsafe failsafe) {
-  return (memory.failsafes & static_cast<std::uint32_t>(failsafe)) != 0;
-}
-
-/// A supervisor in flight at 60 ticks per second; tests change the conditions.
-struct Flight {
-  SupervisorOptions options;
-  SupervisorMemory memory;
-  SupervisorConditions conditions;
-
-  Flight() {
-    conditions.phase = FlightPhase::kFlying;
-    conditions.height_above_pad = 0.6;
-  }
-  const SupervisorMemory& tick() {
-    conditions.now += fromSeconds(kTick);
-    conditions.flight_time_s += kTick;
-    return memory = supervise(options, memory, conditions);
-  }
-  /// Ticks without a pose for as long as `seconds`.
-  void blindFor(double seconds) {
-    const double end = conditions.pose_age_s + seconds;
-    while (conditions.pose_age_s + kTick <= end) {
-      conditions.pose_age_s += kTick;
-      tick();
-    }
-  }
-  SafetyState state() const { return memory.state; }
-};
+using test::kTick;
+using test::raised;
+using test::SupervisedFlight;
 
 TEST(Supervisor, LeavesAQuietFlightAlone) {
-  Flight flight;
+  SupervisedFlight flight;
   for (int i = 0; i < 600; ++i) flight.tick();
   EXPECT_EQ(flight.state(), SafetyState::kNormal);
   EXPECT_EQ(flight.memory.failsafes, 0u);
+  EXPECT_EQ(flight.memory.alarms, 0u);
 }
 
-TEST(Supervisor, CoastsAfterAMomentWithoutPoseAndRecoversAtOnce) {
-  Flight flight;
+TEST(Supervisor, CoastsThenGoesNeutralWithoutAPoseAndRecoversAtOnce) {
+  SupervisedFlight flight;
   flight.blindFor(0.05);
   EXPECT_EQ(flight.state(), SafetyState::kNormal);
   flight.blindFor(0.02);
   EXPECT_EQ(flight.state(), SafetyState::kCoasting);
   EXPECT_TRUE(raised(flight.memory, Failsafe::kNoPoseCoast));
+  flight.blindFor(0.1);
+  EXPECT_EQ(flight.state(), SafetyState::kNeutral);
+  EXPECT_TRUE(raised(flight.memory, Failsafe::kNoPoseNeutral));
   flight.conditions.pose_age_s = 0.0;
   EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
   EXPECT_TRUE(raised(flight.memory, Failsafe::kNoPoseCoast)) << "what happened stays on record";
+  EXPECT_EQ(flight.memory.alarms, 0u) << "and is over";
 }
 
 TEST(Supervisor, DescendsWithoutPoseForLongAndRecoversAtOnce) {
-  Flight flight;
+  SupervisedFlight flight;
   flight.blindFor(0.5);
-  EXPECT_EQ(flight.state(), SafetyState::kCoasting);
+  EXPECT_EQ(flight.state(), SafetyState::kNeutral);
   flight.blindFor(0.1);
   EXPECT_EQ(flight.state(), SafetyState::kDescending);
   EXPECT_TRUE(raised(flight.memory, Failsafe::kNoPoseDescent));
@@ -72,14 +49,14 @@ TEST(Supervisor, DescendsWithoutPoseForLongAndRecoversAtOnce) {
 
 TEST(Supervisor, CutsWhenTheDescentIsOver) {
   for (const double height : {0.2, 0.6, 1.5}) {
-    Flight flight;
-    flight.conditions.height_above_pad = height;
+    SupervisedFlight flight;
+    flight.conditions.place.z() = height;
     flight.blindFor(0.5 + 2 * kTick);
     ASSERT_EQ(flight.state(), SafetyState::kDescending);
     const double down = height / flight.options.descent_speed + kSettleOnSkids;
     EXPECT_NEAR(flight.memory.descent_s, down, 1e-9);
     // Where it believes to be now means nothing: the time was fixed when the descent began.
-    flight.conditions.height_above_pad = 40.0;
+    flight.conditions.place.z() = 40.0;
     flight.blindFor(down - 3 * kTick);
     EXPECT_EQ(flight.state(), SafetyState::kDescending);
     flight.blindFor(5 * kTick);
@@ -89,9 +66,9 @@ TEST(Supervisor, CutsWhenTheDescentIsOver) {
 }
 
 TEST(Supervisor, DescentIsNeverLongerThanItsLimit) {
-  Flight flight;
+  SupervisedFlight flight;
   flight.blindFor(0.1);
-  flight.conditions.height_above_pad = 100.0;
+  flight.conditions.place.z() = 100.0;
   flight.blindFor(0.4 + flight.options.longest_descent_s - 2 * kTick);
   EXPECT_EQ(flight.state(), SafetyState::kDescending);
   flight.blindFor(5 * kTick);
@@ -99,7 +76,7 @@ TEST(Supervisor, DescentIsNeverLongerThanItsLimit) {
 }
 
 TEST(Supervisor, EveryDescentHasItsOwnTime) {
-  Flight flight;
+  SupervisedFlight flight;
   flight.blindFor(1.0);
   ASSERT_EQ(flight.state(), SafetyState::kDescending);
   flight.conditions.pose_age_s = 0.0;
@@ -109,7 +86,7 @@ TEST(Supervisor, EveryDescentHasItsOwnTime) {
 }
 
 TEST(Supervisor, CutsWhenTiltedForLong) {
-  Flight flight;
+  SupervisedFlight flight;
   flight.conditions.tilt = 1.05;
   for (int i = 0; i < 18; ++i) flight.tick();
   EXPECT_EQ(flight.state(), SafetyState::kNormal);
@@ -119,7 +96,7 @@ TEST(Supervisor, CutsWhenTiltedForLong) {
 }
 
 TEST(Supervisor, TiltThatEndsStartsItsTimeAnew) {
-  Flight flight;
+  SupervisedFlight flight;
   for (int swing = 0; swing < 10; ++swing) {
     flight.conditions.tilt = 1.2;
     for (int i = 0; i < 15; ++i) flight.tick();
@@ -129,79 +106,164 @@ TEST(Supervisor, TiltThatEndsStartsItsTimeAnew) {
   EXPECT_EQ(flight.state(), SafetyState::kNormal);
 }
 
-TEST(Supervisor, TiltAndPlaceMeanNothingWithoutAPose) {
-  Flight flight;
+TEST(Supervisor, TiltPlaceAndSpeedMeanNothingWithoutAPose) {
+  SupervisedFlight flight;
   flight.blindFor(0.1);
   flight.conditions.tilt = 3.0;
-  flight.conditions.distance_from_pad = 50.0;
+  flight.conditions.speed = 30.0;
+  flight.conditions.place.x() = 50.0;
   flight.blindFor(0.35);
-  EXPECT_EQ(flight.state(), SafetyState::kCoasting);
+  EXPECT_EQ(flight.state(), SafetyState::kNeutral);
 }
 
-TEST(Supervisor, LandsBeyondTheFenceAndCutsFarBeyond) {
-  for (const bool upwards : {false, true}) {
-    Flight flight;
-    double& place = upwards ? flight.conditions.height_above_pad : flight.conditions.distance_from_pad;
-    const double fence = upwards ? flight.options.fence_height : flight.options.fence_radius;
-    place = fence - 0.01;
-    EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
-    place = fence + 0.01;
-    EXPECT_EQ(flight.tick().state, SafetyState::kLandNow);
-    EXPECT_TRUE(raised(flight.memory, Failsafe::kFence));
-    place = 0.3;
-    EXPECT_EQ(flight.tick().state, SafetyState::kLandNow) << "the order to land stays";
-    place = fence + flight.options.hard_fence_margin + 0.01;
-    EXPECT_EQ(flight.tick().state, SafetyState::kCut);
-    EXPECT_TRUE(raised(flight.memory, Failsafe::kHardFence));
-  }
+TEST(Supervisor, WarnsNearTheFenceLandsBeyondItAndCutsFarBeyond) {
+  for (const FenceShape shape : {FenceShape::kCylinder, FenceShape::kBox})
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        if (axis == 2 && side < 0.0) continue;  // the ground is no fence
+        SupervisedFlight flight;
+        flight.options.fence = shape;
+        flight.options.fence_half_y = 1.2;
+        const double reach = axis == 2                                ? flight.options.fence_height
+                             : axis == 1 && shape == FenceShape::kBox ? flight.options.fence_half_y
+                                                                      : flight.options.fence_radius;
+        double& place = flight.conditions.place[axis];
+        place = side * (reach - flight.options.fence_warning_margin - 0.01);
+        EXPECT_EQ(flight.tick().alarms, 0u);
+        place = side * (reach - 0.01);
+        EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
+        EXPECT_EQ(flight.memory.alarms, bitOf(Failsafe::kFenceNear));
+        place = side * (reach + 0.01);
+        EXPECT_EQ(flight.tick().state, SafetyState::kLandNow);
+        EXPECT_TRUE(raised(flight.memory, Failsafe::kFence));
+        place = 0.3;
+        EXPECT_EQ(flight.tick().state, SafetyState::kLandNow) << "the order to land stays";
+        place = side * (reach + flight.options.hard_fence_margin + 0.01);
+        EXPECT_EQ(flight.tick().state, SafetyState::kCut);
+        EXPECT_TRUE(raised(flight.memory, Failsafe::kHardFence));
+      }
 }
 
-TEST(Supervisor, FenceIsForFlightOnly) {
+TEST(Supervisor, FenceAndFlightTimeAreForFlightOnly) {
   for (const auto phase : {FlightPhase::kSpinUp, FlightPhase::kLiftOff, FlightPhase::kTouchdown}) {
-    Flight flight;
+    SupervisedFlight flight;
     flight.conditions.phase = phase;
-    flight.conditions.distance_from_pad = 50.0;
+    flight.conditions.place.x() = 50.0;
     flight.conditions.flight_time_s = 1000.0;
     EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
   }
 }
 
+TEST(Supervisor, LandsWhenItIsTooFastForLong) {
+  SupervisedFlight flight;
+  flight.conditions.speed = flight.options.speed_limit + 0.1;
+  for (int i = 0; i < 18; ++i) flight.tick();
+  EXPECT_EQ(flight.state(), SafetyState::kNormal);
+  for (int i = 0; i < 3; ++i) flight.tick();
+  EXPECT_EQ(flight.state(), SafetyState::kLandNow);
+}
+
 TEST(Supervisor, CutsWhenItDoesNotLiftOff) {
-  Flight flight;
+  SupervisedFlight flight;
   flight.conditions.phase = FlightPhase::kLiftOff;
   flight.conditions.lift_off_failed = true;
   EXPECT_EQ(flight.tick().state, SafetyState::kCut);
   EXPECT_TRUE(raised(flight.memory, Failsafe::kLiftOffFailed));
 }
 
-TEST(Supervisor, LandsWhenTheFlightTimeIsOver) {
-  Flight flight;
-  flight.conditions.flight_time_s = flight.options.flight_time_limit_s - 0.1;
-  EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
+TEST(Supervisor, WarnsThenLandsWhenTheFlightTimeIsOver) {
+  SupervisedFlight flight;
+  flight.conditions.flight_time_s = 0.9 * flight.options.flight_time_limit_s - 0.1;
+  EXPECT_EQ(flight.tick().alarms, 0u);
   flight.conditions.flight_time_s += 0.2;
+  EXPECT_EQ(flight.tick().alarms, bitOf(Failsafe::kFlightTimeSoon));
+  EXPECT_EQ(flight.memory.failsafes, 0u) << "a warning is no failsafe";
+  flight.conditions.flight_time_s = flight.options.flight_time_limit_s + 0.1;
   EXPECT_EQ(flight.tick().state, SafetyState::kLandNow);
   EXPECT_TRUE(raised(flight.memory, Failsafe::kFlightTime));
 }
 
+TEST(Supervisor, ADoubtfulPoseHoldsThenLandsAndClearsOnlyWellBelowItsLimit) {
+  const auto flight_with = [](auto&& doubt) {
+    SupervisedFlight flight;
+    doubt(flight.conditions.health, 1.01);
+    for (int i = 0; i < 29; ++i) flight.tick();
+    EXPECT_EQ(flight.state(), SafetyState::kNormal);
+    for (int i = 0; i < 3; ++i) flight.tick();
+    EXPECT_EQ(flight.state(), SafetyState::kHolding);
+    doubt(flight.conditions.health, 0.5);
+    flight.tick();
+    EXPECT_EQ(flight.state(), SafetyState::kHolding) << "it is still above 1/2.5 of the limit";
+    doubt(flight.conditions.health, 0.39);
+    flight.tick();
+    EXPECT_EQ(flight.state(), SafetyState::kNormal);
+    doubt(flight.conditions.health, 1.01);
+    for (int i = 0; i < 94; ++i) flight.tick();
+    EXPECT_EQ(flight.state(), SafetyState::kLandNow);
+    EXPECT_TRUE(raised(flight.memory, Failsafe::kUncertainLand));
+  };
+  const SupervisorOptions o;
+  flight_with([&](SystemHealth& h, double share) { h.residual_ratio = share * o.residual_limit; });
+  flight_with([&](SystemHealth& h, double share) { h.position_sigma = share * o.position_sigma_limit; });
+  flight_with([&](SystemHealth& h, double share) { h.rotation_sigma = share * o.rotation_sigma_limit; });
+}
+
+TEST(Supervisor, WithoutACalibratedCameraItIsAsWithoutAPose) {
+  SupervisedFlight flight;
+  flight.conditions.health.live_cameras = 0;
+  for (int i = 0; i < 9; ++i) flight.tick();
+  EXPECT_EQ(flight.state(), SafetyState::kNormal);
+  for (int i = 0; i < 2; ++i) flight.tick();
+  EXPECT_EQ(flight.state(), SafetyState::kNeutral);
+  flight.conditions.health.live_cameras = 1;
+  EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
+}
+
+TEST(Supervisor, AFailingTransmitterIsAnAlarmAtOnceAndACutForGoodAfterItsTime) {
+  SupervisedFlight flight;
+  flight.conditions.health.transmitter_fault = true;
+  EXPECT_EQ(flight.tick().alarms, bitOf(Failsafe::kTransmitterFault));
+  EXPECT_EQ(flight.state(), SafetyState::kNormal);
+  flight.conditions.health.transmitter_fault = false;
+  EXPECT_EQ(flight.tick().alarms, 0u);
+  flight.conditions.health.transmitter_fault = true;
+  for (int i = 0; i < 9; ++i) flight.tick();
+  EXPECT_EQ(flight.state(), SafetyState::kCut);
+  flight.conditions.health.transmitter_fault = false;  // plugged in again
+  flight.conditions.arm = true;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(flight.tick().state, SafetyState::kCut);
+}
+
+TEST(Supervisor, ThreeLateTicksInARowWarn) {
+  SupervisedFlight flight;
+  const auto tick_late = [&](bool late) {
+    flight.conditions.health.overrun_s = late ? 0.011 : 0.0;
+    return flight.tick().alarms;
+  };
+  EXPECT_EQ(tick_late(true), 0u);
+  EXPECT_EQ(tick_late(true), 0u);
+  EXPECT_EQ(tick_late(false), 0u);
+  EXPECT_EQ(tick_late(true), 0u);
+  EXPECT_EQ(tick_late(true), 0u);
+  EXPECT_EQ(tick_late(true), bitOf(Failsafe::kOverrun));
+  EXPECT_EQ(tick_late(false), 0u);
+}
+
 TEST(Supervisor, LandingOrderReturnsAfterADescentThatThePoseEnded) {
-  Flight flight;
+  SupervisedFlight flight;
   flight.conditions.flight_time_s = flight.options.flight_time_limit_s + 1.0;
   flight.tick();
   flight.blindFor(0.8);
   EXPECT_EQ(flight.state(), SafetyState::kDescending);
   flight.conditions.pose_age_s = 0.0;
-  flight.tick();
   EXPECT_EQ(flight.tick().state, SafetyState::kLandNow);
 }
 
 TEST(Supervisor, KillCutsInEveryPhaseAndState) {
-  for (const auto phase :
-       {FlightPhase::kIdle, FlightPhase::kSpinUp, FlightPhase::kLiftOff, FlightPhase::kFlying,
-        FlightPhase::kLanding, FlightPhase::kTouchdown, FlightPhase::kOff})
-    for (const auto state : {SafetyState::kNormal, SafetyState::kCoasting, SafetyState::kDescending,
-                             SafetyState::kLandNow, SafetyState::kCut}) {
-      Flight flight;
-      flight.memory.state = state;
+  for (const auto phase : test::kPhases)
+    for (int state = 0; state <= static_cast<int>(SafetyState::kCut); ++state) {
+      SupervisedFlight flight;
+      flight.memory.state = static_cast<SafetyState>(state);
       flight.conditions.phase = phase;
       flight.conditions.kill = true;
       EXPECT_EQ(flight.tick().state, SafetyState::kCut);
@@ -209,75 +271,15 @@ TEST(Supervisor, KillCutsInEveryPhaseAndState) {
     }
 }
 
-SupervisorConditions randomConditions(Random& random, TimeNs now) {
-  SupervisorConditions c;
-  c.now = now;
-  c.phase = static_cast<FlightPhase>(static_cast<int>(random.uniform(0.0, 7.0)));
-  c.pose_age_s = random.uniform() < 0.6 ? random.uniform(0.0, 0.05) : random.uniform(0.0, 3.0);
-  c.tilt = random.uniform() < 0.9 ? random.uniform(0.0, 0.5) : random.uniform(0.0, 3.0);
-  c.distance_from_pad = random.uniform() < 0.9 ? random.uniform(0.0, 1.5) : random.uniform(0.0, 3.0);
-  c.height_above_pad = random.uniform(-0.1, 2.05);
-  c.flight_time_s = toSeconds(now);
-  c.lift_off_failed = random.uniform() < 0.002;
-  c.kill = random.uniform() < 0.002;
-  return c;
-}
-
-/// Whatever happens, in whatever order.
-TEST(Supervisor, KeepsItsPromisesUnderRandomConditions) {
-  const SupervisorOptions options;
-  Random random(1);
-  for (int sequence = 0; sequence < 2000; ++sequence) {
-    SupervisorMemory memory;
-    TimeNs now = fromSeconds(random.uniform(0.0, 650.0));
-    for (int i = 0; i < 300; ++i) {
-      now += fromSeconds(kTick);
-      const SupervisorConditions c = randomConditions(random, now);
-      const SupervisorMemory before = memory;
-      memory = supervise(options, before, c);
-
-      ASSERT_EQ(memory.failsafes & before.failsafes, before.failsafes) << "failsafes stay on record";
-      if (c.kill) {
-        ASSERT_EQ(memory.state, SafetyState::kCut);
-      }
-      if (before.state == SafetyState::kCut) {
-        ASSERT_EQ(memory.state, SafetyState::kCut);
-      }
-      if (c.kill || before.state == SafetyState::kCut) continue;
-      if (c.phase == FlightPhase::kIdle || c.phase == FlightPhase::kOff) {
-        ASSERT_EQ(memory.state, before.state) << "with rotors off there is nothing to do";
-        ASSERT_EQ(memory.failsafes, before.failsafes);
-        continue;
-      }
-      const bool blind = memory.state == SafetyState::kCoasting || memory.state == SafetyState::kDescending;
-      if (c.pose_age_s <= options.coast_after_s) {
-        ASSERT_FALSE(blind);
-      }
-      if (c.pose_age_s > options.descend_after_s) {
-        ASSERT_TRUE(memory.state == SafetyState::kDescending || memory.state == SafetyState::kCut);
-      }
-      if (memory.state == SafetyState::kCut) {
-        ASSERT_NE(memory.failsafes, 0u) << "a cut has a reason";
-      }
-    }
-  }
-}
-
-/// The same conditions and memory give the same answer: what a session logged can be asked again.
-TEST(Supervisor, IsAPureFunction) {
-  const SupervisorOptions options;
-  Random random(2);
-  SupervisorMemory memory;
-  for (int i = 0; i < 2000; ++i) {
-    const SupervisorConditions c = randomConditions(random, fromSeconds(i * kTick));
-    const SupervisorMemory once = supervise(options, memory, c), twice = supervise(options, memory, c);
-    EXPECT_EQ(once.state, twice.state);
-    EXPECT_EQ(once.failsafes, twice.failsafes);
-    EXPECT_EQ(once.tilted_since, twice.tilted_since);
-    EXPECT_EQ(once.descending_since, twice.descending_since);
-    EXPECT_EQ(once.descent_s, twice.descent_s);
-    memory = once;
-  }
+TEST(Supervisor, IsDisarmedFiveSecondsAfterTheCut) {
+  SupervisedFlight flight;
+  flight.memory.armed = true;
+  flight.conditions.kill = true;
+  flight.tick();
+  flight.conditions.kill = false;
+  for (int i = 0; i < 298; ++i) EXPECT_TRUE(flight.tick().armed);
+  for (int i = 0; i < 5; ++i) flight.tick();
+  EXPECT_FALSE(flight.memory.armed);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(FlightLoopAllocation, NoneFromTheFirstFrameToTheLanding) {
       while (source->poll(observation)) counted([&] { loop.onObservation(observation, now); });
     if (ms % 17 != 0) continue;
     OperatorCommands commands;
-    commands.take_off = ms == 17 * 60;
+    commands.arm = commands.take_off = ms == 17 * 60;
     StickDemand sticks;
     counted([&] {
       sticks = loop.onTick(now, commands);

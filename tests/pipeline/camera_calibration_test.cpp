@@ -63,7 +63,7 @@ TEST(CameraCalibration, ACameraThatWasCoveredKnowsItsPlaceStill) {
     OperatorCommands commands;
     for (double time = 0.0; time < 14.0;) {
       const EngineSnapshot& now = flight.tick(commands);
-      commands.take_off = now.phase == FlightPhase::kIdle && now.pose_known;
+      commands.arm = commands.take_off = now.phase == FlightPhase::kIdle && now.failing_checks == 0;
       time = toSeconds(now.time);
       if (time > 9.0) {
         ASSERT_EQ(now.cameras[2].estimate.status, CameraStatus::kCalibrated) << method << " at " << time;
@@ -147,7 +147,7 @@ TEST(CameraCalibration, CamerasTaughtInFlightDoNotTeachEachOther) {
   std::array<CameraEstimate, 2> before;
   for (;;) {
     const EngineSnapshot& now = flight.tick(commands);
-    commands.take_off = now.phase == FlightPhase::kIdle && now.pose_known;
+    commands.arm = commands.take_off = now.phase == FlightPhase::kIdle && now.failing_checks == 0;
     if (toSeconds(now.time) < 9.2) before = {now.cameras[1].estimate, now.cameras[2].estimate};
     if (toSeconds(now.time) < 12.0) continue;
     EXPECT_TRUE(now.pose_known);

@@ -43,7 +43,12 @@ TEST(Engine, FliesHidesACameraAndIsKilled) {
   EXPECT_FALSE(engine.running());
   engine.start();
   EXPECT_TRUE(engine.running());
-  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.pose_known; }));
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.pose_known && now.failing_checks == 0; }));
+  engine.takeOff();
+  ASSERT_TRUE(
+      waitUntil(engine, [](const auto& now) { return now.tick > 0 && now.phase == FlightPhase::kIdle; }));
+  engine.arm();
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.armed; }));
   engine.takeOff();
   ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.phase == FlightPhase::kFlying; }));
   EXPECT_TRUE(hasEvent(engine, "Airborne"));
@@ -60,6 +65,7 @@ TEST(Engine, FliesHidesACameraAndIsKilled) {
   ASSERT_TRUE(waitUntil(engine, [](const auto& now) {
     return now.safety == SafetyState::kCut && now.sticks == StickDemand{};
   }));
+  engine.arm();
   engine.takeOff();
   ASSERT_TRUE(waitUntil(engine, [tick = std::uint64_t{0}](const auto& now) mutable {
     if (tick == 0) tick = now.tick;

@@ -33,7 +33,7 @@ std::uint64_t fly(const RigConfig& rig, int ticks) {
   std::uint64_t result = 0;
   OperatorCommands commands;
   for (int i = 0; i < ticks; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     result = digest(flight.tick(commands), result);
   }
   return result;
@@ -70,13 +70,13 @@ TEST(LockStep, KillCutsTheSticksAtOnceAndForGood) {
   LockStep flight(test::shippedRig("paper", 1), loadPlan(planPath("hover")));
   OperatorCommands commands;
   for (int i = 0; i < 400; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     flight.tick(commands);
   }
   commands.kill = true;
   EXPECT_EQ(flight.tick(commands).sticks, StickDemand{});
   commands.kill = false;
-  commands.take_off = true;
+  commands.arm = commands.take_off = true;
   for (int i = 0; i < 120; ++i) {
     const EngineSnapshot& now = flight.tick(commands);
     EXPECT_EQ(now.sticks, StickDemand{});

@@ -41,7 +41,7 @@ std::array<ObservationStatistics, 3> measure(bool images, std::uint64_t seed) {
       }
     if (ms % 17 != 0) continue;
     OperatorCommands commands;
-    commands.take_off = ms == 17 * 60;
+    commands.arm = commands.take_off = ms == 17 * 60;
     output.submit(loop.onTick(now, commands), now);
     output.step(now);
   }

@@ -21,7 +21,7 @@ void record(const std::filesystem::path& file, const SessionSettings& settings, 
   LockStep flight(settings.rig, settings.plan, &recorder);
   OperatorCommands commands;
   for (int i = 0; i < ticks; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     if (i == 300) flight.hideCamera(cameraId(2), true);
     if (i == 330) flight.hideCamera(cameraId(2), false);
     flight.tick(commands);

@@ -57,9 +57,14 @@ class Witness final : public FlightTap {
   Witness witness(recorder, flown);
   Engine engine(settings.rig, settings.plan, &witness);
   engine.start();
+  bool ordered = false;
   for (EngineSnapshot tick;;) {
-    while (engine.nextTick(tick))
-      if (tick.tick == 30) engine.takeOff();
+    while (engine.nextTick(tick)) {
+      if (ordered || tick.failing_checks != 0) continue;
+      ordered = true;
+      engine.arm();
+      engine.takeOff();
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }

@@ -38,7 +38,7 @@ Flown fly(const TemporaryFolder& folder, bool images) {
   LockStep flight(settings.rig, settings.plan, &recorder);
   OperatorCommands commands;
   for (int i = 0; i < ticks; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     flown.ticks.push_back(flight.tick(commands));
   }
   return flown;

@@ -27,7 +27,7 @@ Flown fly(const SessionSettings& settings, FlightTap* tap) {
   Flown flown;
   OperatorCommands commands;
   for (int i = 0; i < kTicks; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     const EngineSnapshot& now = flight.tick(commands);
     flown.sticks.push_back(now.sticks);
     flown.position = now.truth.world_from_body.translation;

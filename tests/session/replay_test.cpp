@@ -25,7 +25,7 @@ void record(const std::filesystem::path& file, const SessionSettings& settings) 
   LockStep flight(settings.rig, settings.plan, &recorder);
   OperatorCommands commands;
   for (int i = 0; i < kTicks; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     if (i == 500) flight.hideCamera(cameraId(1), true);
     if (i == 560) flight.hideCamera(cameraId(1), false);
     flight.tick(commands);
@@ -95,7 +95,10 @@ TEST(Replay, AFlightInRealTimeRepeatsInTheOrderInWhichItHappened) {
     std::uint64_t ticks = 0;
     while (ticks < 150) {
       if (engine.poll()) ticks = engine.snapshot().tick;
-      if (ticks == 50) engine.takeOff();
+      if (ticks == 50) {
+        engine.arm();
+        engine.takeOff();
+      }
       if (ticks == 80) engine.setCalibrator("ekf");
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

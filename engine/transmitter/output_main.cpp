@@ -1,0 +1,96 @@
+#include "engine/transmitter/output_main.h"
+
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "engine/transmitter/output_device.h"
+#include "engine/transmitter/output_guard.h"
+#include "engine/transmitter/shared_output.h"
+
+namespace helical {
+namespace {
+
+constexpr TimeNs kRestBeforeEnd = 200 * kNanosecondsPerMillisecond;
+
+volatile sig_atomic_t terminated = 0;
+
+/// What ends other programs must not leave sticks where they are: a request to end lets the demands grow old.
+void ignoreSignals() {
+  for (const int number : {SIGINT, SIGHUP, SIGPIPE, SIGQUIT, SIGUSR1, SIGUSR2}) signal(number, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = [](int) { terminated = 1; };
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void sleepUntil(TimeNs time) {
+  const timespec until{time / kNanosecondsPerSecond, time % kNanosecondsPerSecond};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
+
+class Output {
+ public:
+  explicit Output(int descriptor)
+      : shared_(descriptor),
+        settings_(shared_->settings),
+        device_(openOutputDevice(settings_)),
+        guard_(settings_.guard),
+        ground_station_(getppid()) {}
+
+  /// False once it is done.
+  bool step() {
+    DemandMessage message;
+    if (terminated == 0 && shared_->demand.read(message)) newest_ = message;
+    const TimeNs now = systemTime();
+    // A ground station that leaves does so with its rotors at rest; if not, they are ramped down as ever.
+    const StickDemand output = guard_.step(newest_.demand, newest_.quit ? 0 : newest_.time, now);
+    beat_ = !beat_;
+    device_->beat(beat_);
+    device_->send(output, now);
+    report(output, now);
+    if (output != StickDemand{}) rests_since_ = -1;
+    if (output == StickDemand{} && rests_since_ < 0) rests_since_ = now;
+    const bool alone = newest_.quit || terminated != 0 || getppid() != ground_station_;
+    return !alone || rests_since_ < 0 || now - rests_since_ < kRestBeforeEnd;
+  }
+
+  TimeNs period() const { return fromSeconds(1.0 / std::clamp(settings_.rate_hz, 10.0, 1000.0)); }
+
+ private:
+  void report(const StickDemand& output, TimeNs now) {
+    OutputReport report;
+    report.sequence = ++reports_;
+    report.time = now;
+    report.output = output;
+    report.status = device_->status();
+    report.locked = guard_.locked();
+    shared_->report.write(report);
+  }
+
+  SharedOutputMapping shared_;
+  OutputSettings settings_;
+  std::unique_ptr<Transmitter> device_;
+  OutputGuard guard_;
+  pid_t ground_station_;
+  DemandMessage newest_;
+  bool beat_ = false;
+  std::uint64_t reports_ = 0;
+  TimeNs rests_since_ = -1;
+};
+
+}  // namespace
+
+void runOutput(int descriptor) {
+  ignoreSignals();
+  Output output(descriptor);
+  TimeNs next = systemTime();
+  while (output.step()) {
+    next = std::max(next + output.period(), systemTime());
+    sleepUntil(next);
+  }
+}
+
+}  // namespace helical

@@ -1,0 +1,25 @@
+// A ground station for tests, to be killed and stopped: flies (the same sticks for ever) through the output
+// process. Usage: ground_station OUTPUT_PROGRAM LOG
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <thread>
+
+#include "engine/transmitter/output_process.h"
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  helical::OutputSettings settings;
+  std::strncpy(settings.device.data(), "loopback", settings.device.size() - 1);
+  std::strncpy(settings.address.data(), argv[2], settings.address.size() - 1);
+  helical::OutputProcess output(settings, argv[1]);
+  std::printf("%d\n", output.pid());
+  std::fflush(stdout);
+  for (bool flies = false;;) {
+    // At rest until it is heard, and from then on as if nothing ever happened.
+    flies = flies || (output.report().sequence > 0 && !output.report().locked);
+    output.send(flies ? helical::StickDemand{0.5, 0.55, 0.2, -0.3} : helical::StickDemand{}, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}

@@ -13,12 +13,14 @@
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/config/calibration_file.h"
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
 #include "engine/config/text_file.h"
 #include "engine/experiments/flight_run.h"
 #include "engine/geometry/rotation.h"
+#include "engine/pipeline/calibration_record.h"
 #include "engine/pipeline/first_guess.h"
 #include "engine/session/recorder.h"
 
@@ -37,6 +39,7 @@ struct FlyArguments {
   bool json = false;
   std::string session;
   std::vector<std::string> session_images;
+  std::string calibration, save_calibration;  ///< files
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
   std::vector<std::string> uncalibrated;
@@ -50,7 +53,8 @@ struct FlyArguments {
   double rate = -1.0;
 };
 
-/// Cameras without a pose get a first guess and the method that makes a calibration of it.
+/// Cameras without a pose find it by `joint`, which needs no first guess; those who name a method or how far a
+/// guess is off get one.
 void calibrateInFlight(const FlyArguments& arguments, RigConfig& rig) {
   if (!arguments.calibrator.empty()) rig.calibrator = arguments.calibrator;
   const bool given = arguments.initial_error.size() == 2;
@@ -80,6 +84,7 @@ RigConfig configuredRig(const FlyArguments& arguments) {
     if (!truth) truth = rig.cameras[index].camera_from_world;
     rig.cameras[index].camera_from_world.reset();
   }
+  if (!arguments.calibration.empty()) giveCalibration(loadCalibration(arguments.calibration), rig);
   calibrateInFlight(arguments, rig);
   validate(simulation);
   return rig;
@@ -139,6 +144,8 @@ int fly(const FlyArguments& arguments) {
     run = runFlight(rig, plan, planned_s + kTimeToSpareS, arguments.realtime, show, recorder.get());
   }
   if (recorder) finishRecord(*recorder);
+  if (!arguments.save_calibration.empty())
+    saveCalibration(arguments.save_calibration, calibrationOf(rig, run.last));
   run.session = arguments.session;
   const std::string report = arguments.json ? flightJson(run, rig) + "\n" : flightText(run, rig);
   if (std::fputs(report.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
@@ -176,13 +183,18 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
   command->add_option("--tracker", arguments->tracker,
                       "helical (default), or paper: latest images, plain least squares");
   command->add_option("--calibrator", arguments->calibrator,
-                      "Calibrates cameras without a pose in flight: " + knownCalibrators());
+                      "Calibrates cameras without a pose in flight: " + knownCalibrators() +
+                          " (default joint, without a first guess)");
   command
       ->add_option("--initial-error", arguments->initial_error,
                    "DEG,M: how far off their first guess is (default 15,0.4)")
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--calibration", arguments->calibration,
+                      "Cameras stand where this file says, which --save-calibration wrote");
+  command->add_option("--save-calibration", arguments->save_calibration,
+                      "Write where the cameras of the control set stand at the end to this file");
   command->add_option("--rate", arguments->rate, "Frame rate of the cameras [Hz]")
       ->check(CLI::PositiveNumber);
   command->add_flag("--realtime", arguments->realtime,

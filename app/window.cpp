@@ -108,9 +108,11 @@ std::unique_ptr<Recorder> startRecorder(const WindowFlight& flight) {
 
 int runWindow(int argc, char** argv, WindowFlight flight) {
   RigConfig& rig = flight.rig;
-  // What there is to see of it are particles that gather where the camera is.
-  if (flight.demonstration) rig.calibrator = "particle-filter";
-  giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
+  if (flight.demonstration) {
+    // What there is to see of it are particles that gather where the camera is.
+    rig.calibrator = "particle-filter";
+    giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
+  }
   prepareDisplay();
   const std::vector<std::filesystem::path> cut_off = cutOffSessions(sessionFolder());
   const std::unique_ptr<Recorder> recorder = startRecorder(flight);

@@ -76,7 +76,7 @@ CalibrationPanel::CalibrationPanel(const RigConfig& rig, const std::vector<std::
   layout->addWidget(nobody_);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     QWidget* box = buildRow(rig.cameras[i], static_cast<int>(i));
-    box->setVisible(rig.cameras[i].pose_is_guess);
+    box->setVisible(rig.cameras[i].learns());
     layout->addWidget(box);
   }
   showOnlyLearners();

@@ -87,7 +87,7 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig
   alarms_ = new AlarmBar(this);
   scene_->setFocus();
   if (std::any_of(rig_.cameras.begin(), rig_.cameras.end(),
-                  [](const CameraConfig& camera) { return camera.pose_is_guess; })) {
+                  [](const CameraConfig& camera) { return camera.learns(); })) {
     // What a newcomer should see first: the camera that finds its place.
     viewpoints_->actions().at(static_cast<int>(SceneViewpoint::kIso))->trigger();
     plots_->showSheet(PlotDeck::kCalibration);

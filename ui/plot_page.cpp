@@ -43,10 +43,9 @@ PlotLane followed(const QString& title, const QString& unit, FlightColumn measur
 /// Cameras without a known place first; any other learns one when it is knocked.
 std::vector<int> learningCameras(const RigConfig& rig) {
   std::vector<int> cameras;
-  for (const bool guessed : {true, false})
+  for (const bool learns : {true, false})
     for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-      if (rig.cameras[i].camera_from_world && rig.cameras[i].pose_is_guess == guessed)
-        cameras.push_back(static_cast<int>(i));
+      if (rig.cameras[i].learns() == learns) cameras.push_back(static_cast<int>(i));
   return cameras;
 }
 

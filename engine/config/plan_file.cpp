@@ -9,6 +9,7 @@ namespace helical {
 namespace {
 
 constexpr OptionField<FlightPlan> kPlanFields[] = {
+    {"carried_s", &FlightPlan::carried_s},
     {"start_delay_s", &FlightPlan::start_delay_s},
     {"climb_speed_m_s", &FlightPlan::climb_speed},
     {"descent_speed_m_s", &FlightPlan::descent_speed},

@@ -29,6 +29,9 @@ struct CameraConfig {
   bool pose_is_guess = false;                       ///< `initial = true`
   std::optional<Matrix6d> pose_covariance;          ///< of CameraEstimate's perturbation, if the file tells
   IgnoredAreas ignored_areas;                       ///< no marker is looked for there
+
+  /// Whether its pose has to be found in flight.
+  bool learns() const { return !camera_from_world || pose_is_guess; }
 };
 
 /// A rig file, loaded and validated. Immutable after.
@@ -47,7 +50,7 @@ struct RigConfig {
   /// Cameras learn from any pose, also one that they helped to find: what the paper does after the switch.
   /// Otherwise only from a pose that other cameras vouch for.
   bool learn_from_own_pose = false;
-  std::string calibrator = "joint";  ///< of cameras that have a first guess only
+  std::string calibrator = "joint";  ///< of cameras whose pose has to be found in flight
   CalibratorOptions calibration;
 
   /// The camera that users call `label`; throws Error(kInput) listing the rig's cameras.

@@ -1,13 +1,12 @@
 #include "engine/config/rig_file.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/config/pose_table.h"
 #include "engine/config/rig_options.h"
 #include "engine/config/text_file.h"
 #include "engine/config/toml_table.h"
@@ -17,9 +16,6 @@ namespace {
 
 constexpr int kLargestSide = 16384;
 constexpr std::size_t kLongestLabel = 16;
-constexpr double kUnitTolerance = 1e-3;
-
-const std::string kPoseExample = "rotation_wxyz = [1.0, 0.0, 0.0, 0.0] and translation_m = [0.0, 0.0, 3.0]";
 
 std::string readLabel(TomlTable& table) {
   const std::string label = table.required("id", table.textOrInteger("id"), std::string("1"), "id = 1");
@@ -61,33 +57,6 @@ CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, Toml
       table.fail(key, "'" + std::string(key) + "' is not positive",
                  "give the focal length in pixels, greater than 0");
   return CameraModel(static_cast<int>(size[0]), static_cast<int>(size[1]), fx, fy, cx, cy, distortion);
-}
-
-/// Finishes the table; its other keys have been read.
-RigidTransform readPose(TomlTable& table) {
-  const Eigen::VectorXd identity = Eigen::Vector4d(1, 0, 0, 0), origin = Eigen::Vector3d::Zero();
-  const Eigen::VectorXd q =
-      table.required("rotation_wxyz", table.numbers("rotation_wxyz", 4), identity, kPoseExample);
-  const Eigen::VectorXd t =
-      table.required("translation_m", table.numbers("translation_m", 3), origin, kPoseExample);
-  table.finish();
-  if (!(std::abs(q.norm() - 1.0) <= kUnitTolerance))
-    table.fail("rotation_wxyz", "the quaternion is not of length 1", "divide w x y z by their length");
-  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), t};
-}
-
-/// The upper limit of 1e6 (a kilometre, squared) keeps sums of them finite.
-std::optional<Matrix6d> readCovariance(TomlTable& table) {
-  const auto entries = table.numbers("covariance", 36);
-  if (!entries) return std::nullopt;
-  const Matrix6d covariance = Eigen::Map<const Matrix6d>(entries->data());
-  const double largest = covariance.cwiseAbs().maxCoeff();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(covariance, Eigen::EigenvaluesOnly);
-  if (largest > 1e6 || (covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * largest ||
-      eigen.eigenvalues().minCoeff() < -1e-6 * largest)
-    table.fail("covariance", "'covariance' is no covariance",
-               "give the six rows of a symmetric matrix without negative eigenvalues, or leave it out");
-  return covariance;
 }
 
 CameraConfig readCamera(TomlTable& table) {

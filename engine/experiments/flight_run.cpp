@@ -17,16 +17,19 @@ constexpr double kAfterwardsS = 0.5;  // watched after the flight has ended
 constexpr double kShortestFlightS = 6.0;
 constexpr double kLongestLiftOffS = 8.0;
 constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
+constexpr double kPutDownS = 1.0;  // after it was carried, and the time before that in which the field is empty
 
 constexpr double kPatienceS = 20.0;  // for the pre-arm checks, after which the flight is given up
 
 /// The operator of a headless flight: arms and takes off once every check passes, and knows when it is over.
 class Operator {
  public:
-  explicit Operator(double limit_s) : end_(limit_s) {}
+  /// `carried_s`: for so long it is carried about first.
+  Operator(double limit_s, double carried_s) : end_(limit_s), carried_s_(carried_s) {}
 
   bool wantsTakeOff(const EngineSnapshot& now) {
     if (ordered_ || !now.pose_known || now.failing_checks != 0) return false;
+    if (carried_s_ > 0.0 && toSeconds(now.time) < carried_s_ + kPutDownS) return false;
     ordered_ = true;
     return true;
   }
@@ -38,6 +41,7 @@ class Operator {
 
  private:
   FlightEnd end_;
+  double carried_s_;
   bool ordered_ = false;
 };
 
@@ -71,7 +75,7 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const TickListener& li
 }  // namespace
 
 void landWithin(FlightPlan& plan, double session_s) {
-  const double around = kBeforeStartS + plan.start_delay_s + kLandingS;
+  const double around = kBeforeStartS + plan.carried_s + plan.start_delay_s + kLandingS;
   if (session_s < around + kShortestFlightS)
     throw Error(ErrorKind::kInput,
                 "a session of " + std::to_string(session_s) + " seconds is too short to fly", {},
@@ -80,7 +84,7 @@ void landWithin(FlightPlan& plan, double session_s) {
 }
 
 double plannedSeconds(const FlightPlan& plan) {
-  double total = kBeforeStartS + plan.start_delay_s + kLandingS;
+  double total = kBeforeStartS + plan.carried_s + plan.start_delay_s + kLandingS;
   if (plan.land_at_s > 0.0) return total + plan.land_at_s;
   total += kLongestLiftOffS + plan.waypoints.front().position_above_pad.z() / plan.climb_speed +
            plan.waypoints.front().position_above_pad.head<2>().norm() / plan.waypoints.front().speed;
@@ -105,7 +109,7 @@ bool FlightEnd::isOver(const EngineSnapshot& now) {
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
                     const TickListener& listener, FlightTap* tap) {
   FlightRun run;
-  Operator pilot(limit_s);
+  Operator pilot(limit_s, plan.carried_s);
   if (realtime) {
     Engine engine(rig, plan, tap);
     const MonotonicClock stopwatch;

@@ -15,6 +15,8 @@ void require(bool condition, const std::string& key, double value, const char* c
 }  // namespace
 
 void validate(const FlightPlan& plan) {
+  require(plan.carried_s == 0.0 || (plan.carried_s >= 10.0 && plan.carried_s <= 600.0), "carried_s", plan.carried_s,
+          "give 10 to 600 s, or 0 for not at all");
   require(plan.start_delay_s >= 0.0 && plan.start_delay_s <= 600.0, "start_delay_s", plan.start_delay_s,
           "give 0 to 600 seconds");
   require(plan.climb_speed > 0.0 && plan.climb_speed <= 1.0, "climb_speed", plan.climb_speed,

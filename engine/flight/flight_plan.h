@@ -18,6 +18,7 @@ struct Waypoint {
 /// What a flight is to do. Times count from the start of the plan (rotors off, pose known).
 struct FlightPlan {
   std::string name = "hover";
+  double carried_s = 0.0;         ///< in simulation somebody waves it through the space for so long before it flies
   double start_delay_s = 0.5;     ///< after the pose is first known, before the rotors start
   double climb_speed = 0.25;      ///< m/s
   double descent_speed = 0.18;    ///< m/s

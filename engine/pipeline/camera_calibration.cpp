@@ -19,22 +19,28 @@ constexpr int kBallsPerStep = 16;
 // rotation may fit that best.
 constexpr double kPlausibleRmsPx = 4.0;
 
+constexpr std::string_view kMethodWithoutGuess = "joint";
+
 }  // namespace
 
 CameraCalibration::CameraCalibration(std::string_view method, const CameraModel& camera,
-                                     const MarkerLayout& markers, const RigidTransform& guess,
+                                     const MarkerLayout& markers, const std::optional<RigidTransform>& guess,
                                      std::uint64_t seed, const CalibratorOptions& options)
     : camera_(camera),
       markers_(markers),
-      guess_(guess),
+      has_guess_(guess.has_value()),
+      guess_(guess.value_or(RigidTransform{})),
       calibrator_(makeCalibrator(method, options, camera, markers, seed)),
       tracks_({}, markers.count()),
       search_(camera, markers) {
+  if (!has_guess_ && !calibrator_->namesCentroids())
+    calibrator_ = makeCalibrator(kMethodWithoutGuess, options, camera, markers, seed);
   calibrator_->restart(guess_);
 }
 
 void CameraCalibration::restart(const RigidTransform& guess, CameraStatus status) {
   guess_ = guess;
+  has_guess_ = true;
   calibrator_->restart(guess_);
   tracks_.forget();
   search_.stop();
@@ -76,6 +82,7 @@ void CameraCalibration::seekLabels() {
 void CameraCalibration::expelAs(CameraStatus status) {
   admission_ = {};
   admission_.status = status;
+  accepted_ = false;
   doubtful_since_ = -1;
 }
 
@@ -96,6 +103,16 @@ std::span<const LabelledPixel> CameraCalibration::keepLabels(const Observation& 
   return {pixels_.data(), count};
 }
 
+bool CameraCalibration::accept() {
+  const bool knows = calibrator_->namesCentroids() ? calibrator_->knowsItsPlace() : named_;
+  const bool agrees =
+      admission_.observed_s > 0.0 && admission_.residual < admission_options_.drop_residual;
+  if (!knows || !agrees) return false;
+  admission_.status = CameraStatus::kCalibrated;
+  accepted_ = true;
+  return true;
+}
+
 void CameraCalibration::step(const Observation& observation, const TrackedState& helicopter) {
   CalibrationFrame frame{
       observation.exposure, helicopter.state.world_from_body, helicopter.pose_covariance, {}, &observation};
@@ -109,7 +126,8 @@ void CameraCalibration::step(const Observation& observation, const TrackedState&
 void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector3d& helicopter_in_world) {
   const CameraEstimate now = calibrator_->estimate();
   const AdmissionEvidence evidence{
-      frame.exposure, uncertaintyAround(camera_, now, helicopter_in_world, admission_options_.reach_m),
+      frame.exposure,
+      accepted_ ? 0.0 : uncertaintyAround(camera_, now, helicopter_in_world, admission_options_.reach_m),
       normalisedResidual(camera_, markers_, now, frame)};
   admission_ = admit(admission_options_, admission_, evidence);
   if (admission_.residual < admission_options_.drop_residual) {
@@ -129,6 +147,7 @@ void CameraCalibration::judge(const CalibrationFrame& frame, const Eigen::Vector
 CameraEstimate CameraCalibration::estimate() const {
   CameraEstimate result = calibrator_->estimate();
   result.status = admission_.status;
+  if (!has_guess_ && !calibrator_->knowsItsPlace()) result.status = CameraStatus::kUncalibrated;
   if (calibrator_->coversLastingOffsets()) return result;
   result.covariance.diagonal().head<3>().array() += kLastingOrientation * kLastingOrientation;
   result.covariance.diagonal().tail<3>().array() += kLastingPosition * kLastingPosition;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -21,12 +22,18 @@ namespace helical {
 /// thread; allocates at construction only.
 class CameraCalibration {
  public:
-  /// `guess`: a first guess of camera_from_world. Throws Error(kInput) for an unknown method.
+  /// `guess`: a first guess of camera_from_world; without one the method is "joint", which needs none, whatever
+  /// is asked for. Throws Error(kInput) for an unknown method.
   CameraCalibration(std::string_view method, const CameraModel& camera, const MarkerLayout& markers,
-                    const RigidTransform& guess, std::uint64_t seed, const CalibratorOptions& options = {});
+                    const std::optional<RigidTransform>& guess, std::uint64_t seed,
+                    const CalibratorOptions& options = {});
 
   /// Forgets everything and starts from another guess. `status` stands until the camera is admitted.
   void restart(const RigidTransform& guess, CameraStatus status);
+
+  /// The operator vouches for what it knows now: however uncertain that is, the camera comes in, and leaves only
+  /// when it disagrees. False if it does not know its place, or disagrees already.
+  bool accept();
 
   /// One frame, and the helicopter at its exposure as the other cameras have it.
   void step(const Observation& observation, const TrackedState& helicopter);
@@ -47,6 +54,7 @@ class CameraCalibration {
 
   CameraModel camera_;
   MarkerLayout markers_;
+  bool has_guess_;
   RigidTransform guess_;
   std::unique_ptr<ExtrinsicCalibrator> calibrator_;
   // For methods that do not name centroids themselves:
@@ -57,6 +65,7 @@ class CameraCalibration {
   std::array<LabelledPixel, kMaxMarkers> pixels_;
   AdmissionOptions admission_options_;
   AdmissionMemory admission_;
+  bool accepted_ = false;
   TimeNs doubtful_since_ = -1;
 };
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr TimeNs kTeaching = 50 * kNanosecondsPerMillisecond;  // a view is of now for so long
 constexpr int kTeachers = 2;
+constexpr int kFewestBallsToStart = 4;
 constexpr int kSureBalls = 3;  // that another camera sees where the pose says: then it is not the pose
 
 }  // namespace
@@ -19,16 +20,25 @@ ControlSet::ControlSet(const RigConfig& rig)
   for (const CameraConfig& camera : rig.cameras) models_.push_back(camera.model);
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraConfig& camera = rig.cameras[i];
-    if (!camera.camera_from_world) continue;
-    estimates_[i].camera_from_world = *camera.camera_from_world;
-    if (camera.pose_covariance) estimates_[i].covariance = *camera.pose_covariance;
-    // A pose that the rig file vouches for flies; a first guess waits for its calibration.
-    estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
-    learning_[i] = camera.pose_is_guess;
-    rank_[i] = camera.pose_is_guess ? 1 : 0;
+    if (camera.camera_from_world) {
+      estimates_[i].camera_from_world = *camera.camera_from_world;
+      if (camera.pose_covariance) estimates_[i].covariance = *camera.pose_covariance;
+      // A pose that the rig file vouches for flies; a first guess waits for its calibration.
+      estimates_[i].status = camera.pose_is_guess ? CameraStatus::kCalibrating : CameraStatus::kCalibrated;
+      if (!camera.pose_is_guess) given_[i] = estimates_[i];
+    }
+    learning_[i] = camera.learns();
+    rank_[i] = camera.learns() ? 1 : 0;
     calibrations_[i] =
-        std::make_unique<CameraCalibration>(rig.calibrator, camera.model, markers_, *camera.camera_from_world,
+        std::make_unique<CameraCalibration>(rig.calibrator, camera.model, markers_, camera.camera_from_world,
                                             rig.simulation.seed + i, rig.calibration);
+  }
+  const auto known = std::count_if(rig.cameras.begin(), rig.cameras.end(),
+                                   [](const CameraConfig& camera) { return !camera.learns(); });
+  if (known < kTeachers && known < static_cast<long>(cameras_) && !learn_from_own_pose_ &&
+      markers_.count() >= kFewestBallsToStart) {
+    cold_start_ = std::make_unique<ColdStart>(models_, markers_, rig.helicopter.standing_height, estimates());
+    for (std::size_t i = 0; i < cameras_; ++i) found_by_cold_start_[i] = learning_[i];
   }
   // A rank for each camera that may be knocked, one after the other.
   for (std::size_t r = 0; r <= cameras_ + 1; ++r)
@@ -49,7 +59,7 @@ void ControlSet::refreshUsable() {
 
 void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
   const std::size_t index = indexOf(camera);
-  if (!calibrations_[index] || !calibration) return;
+  if (!calibration) return;
   calibrations_[index].swap(calibration);
   if (!learning_[index]) return;
   estimates_[index] = calibrations_[index]->estimate();
@@ -57,15 +67,87 @@ void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   refreshUsable();
 }
 
+const char* ControlSet::obey(const CalibrationOrder& order) {
+  const std::size_t index = indexOf(order.camera);
+  switch (order.kind) {
+    case CalibrationOrderKind::kFreeze:
+      frozen_[index] = true;
+      return nullptr;
+    case CalibrationOrderKind::kResume:
+      frozen_[index] = false;
+      return nullptr;
+    case CalibrationOrderKind::kAccept:
+      if (!learning_[index]) return "it does not learn";
+      if (!calibrations_[index]->accept()) return "it does not know its place, or disagrees";
+      estimates_[index] = calibrations_[index]->estimate();
+      refreshUsable();
+      return nullptr;
+    case CalibrationOrderKind::kTrustRig:
+      if (!given_[index]) return "the rig file does not say where it stands";
+      found_by_cold_start_[index] = false;
+      place(index, *given_[index]);
+      return nullptr;
+    case CalibrationOrderKind::kAdopt:
+      found_by_cold_start_[index] = false;
+      place(index, {order.camera_from_world, order.covariance, CameraStatus::kCalibrated});
+      return nullptr;
+  }
+  return nullptr;
+}
+
+void ControlSet::place(std::size_t camera, const CameraEstimate& estimate) {
+  estimates_[camera] = estimate;
+  learning_[camera] = false;
+  rank_[camera] = 0;
+  detectors_[camera] = KnockDetector();
+  bounds_[camera].restart();
+  closeRanks();
+  refreshUsable();
+}
+
 const CameraCalibration* ControlSet::calibration(CameraId camera) const {
   return learning_[indexOf(camera)] ? calibrations_[indexOf(camera)].get() : nullptr;
 }
 
+const char* ControlSet::method(CameraId camera) const {
+  const std::size_t index = indexOf(camera);
+  if (learning_[index]) return calibrations_[index]->calibrator().name();
+  return found_by_cold_start_[index] ? "cold-start" : nullptr;
+}
+
+const char* ControlSet::instruction() const {
+  return cold_start_ ? cold_start_->instruction() : nullptr;
+}
+
+void ControlSet::startCold(const Observation& observation, bool airborne) {
+  // In flight it goes on only for cameras that still have no place.
+  bool wanted = !airborne;
+  for (std::size_t i = 0; i < cameras_; ++i) wanted = wanted || (found_by_cold_start_[i] && learning_[i]);
+  if (!wanted || hidden_[indexOf(observation.camera)]) return;
+  cold_start_->step(observation);
+  if (!cold_start_->takeAnswer()) return;
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    if (!found_by_cold_start_[i] || frozen_[i] || (airborne && !learning_[i])) continue;
+    const CameraEstimate& answer = cold_start_->answer()[i];
+    if (answer.status == CameraStatus::kCalibrated) {
+      place(i, answer);
+    } else if (!usable_[i] || answer.status == CameraStatus::kUncalibrated) {
+      estimates_[i] = answer;
+      learning_[i] = true;
+      rank_[i] = std::max(rank_[i], 1);
+    }
+  }
+  refreshUsable();
+}
+
 void ControlSet::learn(const Observation& observation, const Tracker& tracker, bool airborne) {
   const std::size_t index = indexOf(observation.camera);
-  if (usable_[index] && isKnocked(observation, tracker)) takeOut(index, tracker);
+  if (cold_start_) startCold(observation, airborne);
+  // What somebody carries about the tracker does not follow, and every camera seems to disagree.
+  const bool judges = airborne || !cold_start_;
+  if (judges && usable_[index] && isKnocked(observation, tracker)) takeOut(index, tracker);
   teachOthers(observation, airborne);
-  if (learning_[index] && !hidden_[index]) teach(observation, tracker, airborne);
+  if (learning_[index] && !hidden_[index] && !frozen_[index]) teach(observation, tracker, airborne);
   refreshUsable();
 }
 
@@ -86,6 +168,7 @@ bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracke
 
 void ControlSet::takeOut(std::size_t camera, const Tracker& tracker) {
   ++knocks_found_[camera];
+  found_by_cold_start_[camera] = false;
   int highest = 0;
   for (std::size_t i = 0; i < cameras_; ++i)
     if (i != camera) highest = std::max(highest, rank_[i]);

@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "engine/calibration/cold_start.h"
 #include "engine/calibration/knock_detector.h"
 #include "engine/calibration/live_bound.h"
 #include "engine/config/rig_config.h"
+#include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/camera_calibration.h"
 #include "engine/tracking/tracker.h"
 
@@ -19,8 +21,8 @@ namespace helical {
 /// given or learnt, to teach them anew from where they stood. The one that jumped is taken out, also
 /// of two: flying on with both of them crashes, and the pose predicted from before tells which one it was.
 ///
-/// Who teaches whom has no circles. Cameras with a given pose have rank 0, those with a first guess rank 1,
-/// and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of lower rank
+/// Who teaches whom has no circles. Cameras with a given pose have rank 0, those whose pose has to be found rank
+/// 1, and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of lower rank
 /// alone have seen, two at least: a camera that taught itself would confirm its own error, and two that
 /// taught each other would confirm each other's. One thread; allocates nothing after construction.
 class ControlSet {
@@ -39,12 +41,20 @@ class ControlSet {
   /// After the tracker has taken in this observation: judges its camera, teaches it, or has it teach others.
   void learn(const Observation& observation, const Tracker& tracker, bool airborne);
 
+  /// What the operator decided. Null, or why it cannot be done: a literal.
+  const char* obey(const CalibrationOrder& order);
+  bool frozen(CameraId camera) const { return frozen_[indexOf(camera)]; }
+
   /// Puts another calibration in the place of a camera's own and hands that back. A camera that learns leaves
-  /// the control set until the new one is admitted; any other uses it once it is knocked. For cameras with a
-  /// pose or a guess; allocates and frees nothing.
+  /// the control set until the new one is admitted; any other uses it once it is knocked. Allocates and frees
+  /// nothing.
   void swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration);
   /// Null for a camera that does not learn.
   const CameraCalibration* calibration(CameraId camera) const;
+  /// By which a camera's pose is or was found in this flight: a literal; null if it was given.
+  const char* method(CameraId camera) const;
+  /// While too few cameras are known to fly: what the operator has to do; a literal, else null.
+  const char* instruction() const;
   std::optional<CalibrationBound> bound(CameraId camera) const { return bounds_[indexOf(camera)].bound(); }
   /// How often this camera was found knocked.
   int knocksFound(CameraId camera) const { return knocks_found_[indexOf(camera)]; }
@@ -52,6 +62,10 @@ class ControlSet {
  private:
   static std::size_t indexOf(CameraId camera) { return static_cast<std::size_t>(camera.index()); }
   void refreshUsable();
+  /// Its share of finding cameras when fewer than two are known.
+  void startCold(const Observation& observation, bool airborne);
+  /// It stands there, and nobody in this flight told it so.
+  void place(std::size_t camera, const CameraEstimate& estimate);
   bool isKnocked(const Observation& observation, const Tracker& tracker);
   void takeOut(std::size_t camera, const Tracker& tracker);
   /// Ranks without gaps, and the teachers with them.
@@ -70,11 +84,15 @@ class ControlSet {
   std::array<bool, kMaxCameras> hidden_{};
   std::array<bool, kMaxCameras> usable_{};
   std::array<bool, kMaxCameras> learning_{};
+  std::array<bool, kMaxCameras> frozen_{};
+  std::array<std::optional<CameraEstimate>, kMaxCameras> given_;  ///< by the rig file
   std::array<int, kMaxCameras> rank_{};
   std::array<KnockDetector, kMaxCameras> detectors_;
   std::array<int, kMaxCameras> knocks_found_{};
-  std::array<std::unique_ptr<CameraCalibration>, kMaxCameras> calibrations_;  ///< null: nothing to start from
+  std::array<std::unique_ptr<CameraCalibration>, kMaxCameras> calibrations_;
   std::array<LiveBound, kMaxCameras> bounds_;
+  std::unique_ptr<ColdStart> cold_start_;        ///< if fewer than two cameras were given
+  std::array<bool, kMaxCameras> found_by_cold_start_{};  ///< or are to be
   std::vector<std::unique_ptr<Tracker>> teachers_;  ///< [r] sees with cameras of rank below r alone
 };
 

@@ -12,7 +12,9 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/spsc_queue.h"
+#include "engine/config/calibration_file.h"
 #include "engine/pipeline/announcer.h"
+#include "engine/pipeline/calibration_record.h"
 #include "engine/pipeline/calibration_view.h"
 #include "engine/pipeline/flight_loop.h"
 #include "engine/pipeline/flight_tap.h"
@@ -91,7 +93,8 @@ struct Engine::Implementation {
                          [this](const Frame& frame, const Observation& observation) {
                            taps[static_cast<std::size_t>(frame.camera.index())].take(frame, observation);
                            if (tap != nullptr) tap->onFrame(frame, observation);
-                         })),
+                         },
+                         plan.carried_s)),
         loop(rig, plan),
         output(*hardware.transmitter),
         calibrator(rig.calibrator),
@@ -108,6 +111,7 @@ struct Engine::Implementation {
   void hide(std::size_t camera, bool hide_it);
   void tick(TimeNs now);
   void takeCalibrations(TimeNs now);
+  void obeyCalibrationOrders(TimeNs now);
   void showCalibrations(std::uint64_t tick, TimeNs now);
   void addOrders(EngineSnapshot& snapshot) const;
   void measureRate(EngineSnapshot& snapshot);
@@ -142,6 +146,7 @@ struct Engine::Implementation {
   std::atomic<TimeNs> gust_until{-1};
   std::array<HandOver<NewCalibration>, kMaxCameras> new_calibrations;
   std::array<LatestValue<CalibrationView>, kMaxCameras> calibration_views;
+  SpscQueue<CalibrationOrder, 128> calibration_orders;
   std::string calibrator;               ///< reading thread
   std::uint64_t calibrations_made = 0;  ///< reading thread
 
@@ -210,6 +215,7 @@ void Engine::Implementation::tick(TimeNs now) {
   commands.land = land.exchange(false);
   commands.kill = output.stopped();
   takeCalibrations(now);
+  obeyCalibrationOrders(now);
   DeviceStatus devices;
   devices.transmitter = output.transmitterStatus();
   if (tap != nullptr) devices.record = tap->health();
@@ -241,6 +247,20 @@ void Engine::Implementation::takeCalibrations(TimeNs now) {
     loop.swapCalibration(camera, anew->calibration);
     if (tap != nullptr) tap->onCalibration(camera, method, anew->seed, now);
     new_calibrations[i].giveBack(std::move(anew));
+  }
+}
+
+void Engine::Implementation::obeyCalibrationOrders(TimeNs now) {
+  CalibrationOrder order;
+  while (calibration_orders.pop(order)) {
+    const auto camera = static_cast<std::size_t>(order.camera.index());
+    if (camera >= rig.cameras.size()) continue;
+    const char* refusal = loop.orderCalibration(order);
+    if (tap != nullptr) tap->onCalibrationOrder(order, now);
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), refusal == nullptr ? "%s%s" : "no %s: %s", toString(order.kind),
+                  refusal == nullptr ? "" : refusal);
+    raise(announcer.event(now, refusal == nullptr ? Severity::kInfo : Severity::kCaution, camera, text.data()));
   }
 }
 
@@ -279,11 +299,10 @@ void Engine::Implementation::measureRate(EngineSnapshot& snapshot) {
 
 void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {
   const CameraConfig& camera = rig.cameras[index];
-  if (!camera.camera_from_world) return;  // nothing to start from
   // Another seed each time: a restart should not repeat the luck of the last one.
   const std::uint64_t seed = rig.simulation.seed + index + kMaxCameras * ++calibrations_made;
   auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body,
-                                                         *camera.camera_from_world, seed, rig.calibration);
+                                                         camera.camera_from_world, seed, rig.calibration);
   new_calibrations[index].offer(std::make_unique<NewCalibration>(std::move(calibration), seed));
 }
 
@@ -425,6 +444,21 @@ const std::string& Engine::calibrator() const {
 void Engine::restartCalibration(CameraId camera) {
   const auto index = static_cast<std::size_t>(camera.index());
   implementation_->replaceCalibration(index, implementation_->calibrator);
+}
+
+bool Engine::orderCalibration(const CalibrationOrder& order) {
+  return implementation_->calibration_orders.push(order);
+}
+
+void Engine::saveCalibration(const std::filesystem::path& file) const {
+  helical::saveCalibration(file, calibrationOf(implementation_->rig, snapshot()));
+}
+
+void Engine::adoptCalibration(const std::filesystem::path& file) {
+  const SavedCalibration saved = loadCalibration(file);
+  for (const CalibrationOrder& order : adoptOrders(saved, implementation_->rig))
+    if (!orderCalibration(order))
+      throw Error(ErrorKind::kSystem, "the engine is still busy with earlier orders", file.string(), "try again");
 }
 
 bool Engine::poll() {

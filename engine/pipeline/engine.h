@@ -1,9 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/flight_view.h"
 #include "engine/pipeline/white_board.h"
 
@@ -60,6 +62,14 @@ class Engine final : public FlightView {
   static std::vector<std::string> calibrators();  ///< in the order users are shown
   /// The same for one camera, with the method of the others.
   void restartCalibration(CameraId camera);
+  /// Decided about one camera, carried out at the next control tick; what cannot be done is told as an event.
+  /// False if more orders wait than the engine keeps.
+  bool orderCalibration(const CalibrationOrder& order);
+  /// Where the cameras of the control set stand, with covariance and provenance, to a file; `orderCalibration`
+  /// with what such a file says, for every camera that it names. Both throw Error; the latter orders nothing
+  /// then.
+  void saveCalibration(const std::filesystem::path& file) const;
+  void adoptCalibration(const std::filesystem::path& file);
 
   // FlightView.
   bool poll() override;

@@ -119,15 +119,16 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.obstacle = output.obstacle;
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
+  snapshot_.cold_start = airborne_ || snapshot_.pose_known ? nullptr : control_set_.instruction();
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
     const CameraId id = cameraId(static_cast<int>(i));
     CameraSnapshot& camera = snapshot_.cameras[i];
-    const CameraCalibration* calibration = control_set_.calibration(id);
     camera.estimate = control_set_.estimates()[i];
     camera.hidden = control_set_.hidden(id);
-    camera.calibration_method = calibration != nullptr ? calibration->calibrator().name() : nullptr;
+    camera.calibration_method = control_set_.method(id);
     camera.calibration_bound = control_set_.bound(id);
     camera.knocks_found = control_set_.knocksFound(id);
+    camera.frozen = control_set_.frozen(id);
   }
 }
 

@@ -30,6 +30,7 @@ class FlightLoop {
   void hideCamera(CameraId camera, bool hidden) { control_set_.hide(camera, hidden); }
 
   /// As ControlSet has them.
+  const char* orderCalibration(const CalibrationOrder& order) { return control_set_.obey(order); }
   void swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
     control_set_.swapCalibration(camera, calibration);
   }

@@ -5,6 +5,7 @@
 #include "engine/cameras/frame.h"
 #include "engine/flight/autopilot.h"
 #include "engine/markers/observation.h"
+#include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/snapshot.h"
 
 namespace helical {
@@ -24,6 +25,8 @@ class FlightTap {
   virtual void onHidden(CameraId camera, bool hidden, TimeNs now) = 0;
   /// A camera's calibration began anew. `method` is a literal.
   virtual void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) = 0;
+  /// The operator decided something about a camera's calibration.
+  virtual void onCalibrationOrder(const CalibrationOrder& order, TimeNs now) = 0;
   virtual void onEvent(const EngineEvent& event) = 0;
 
   // What no flight depends on:

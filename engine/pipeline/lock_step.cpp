@@ -24,7 +24,8 @@ LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
       hardware_(openRig(onSimulatedTime(rig), clock_,
                         [tap](const Frame& frame, const Observation& observation) {
                           if (tap != nullptr) tap->onFrame(frame, observation);
-                        })),
+                        },
+                        plan.carried_s)),
       loop_(rig, plan),
       output_(*hardware_.transmitter),
       tap_(tap),
@@ -82,12 +83,17 @@ void LockStep::hideCamera(CameraId camera, bool hidden) {
 
 void LockStep::calibrate(CameraId id, const std::string& method, std::uint64_t seed) {
   const CameraConfig& camera = rig_.cameras[static_cast<std::size_t>(id.index())];
-  if (!camera.camera_from_world) return;
   auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig_.markers_in_body,
-                                                         *camera.camera_from_world, seed, rig_.calibration);
+                                                         camera.camera_from_world, seed, rig_.calibration);
   const char* name = calibration->calibrator().name();
   loop_.swapCalibration(id, calibration);
   if (tap_ != nullptr) tap_->onCalibration(id, name, seed, clock_->now());
+}
+
+const char* LockStep::orderCalibration(const CalibrationOrder& order) {
+  const char* refusal = loop_.orderCalibration(order);
+  if (tap_ != nullptr) tap_->onCalibrationOrder(order, clock_->now());
+  return refusal;
 }
 
 }  // namespace helical

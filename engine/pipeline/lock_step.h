@@ -24,8 +24,10 @@ class LockStep {
   const EngineSnapshot& tick(const OperatorCommands& commands);
 
   void hideCamera(CameraId camera, bool hidden);
-  /// Begins a camera's calibration anew; one without a pose or a guess has nothing to begin from.
+  /// Begins a camera's calibration anew.
   void calibrate(CameraId camera, const std::string& method, std::uint64_t seed);
+  /// Null, or why it cannot be done.
+  const char* orderCalibration(const CalibrationOrder& order);
 
  private:
   void use(const Observation& observation);

@@ -79,9 +79,9 @@ RigidTransform trueCameraFromWorld(const RigConfig& rig, CameraId id) {
 }
 
 RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
-                    const ExtractingSource::FrameTap& tap) {
+                    const ExtractingSource::FrameTap& tap, double carried_s) {
   RigHardware hardware;
-  hardware.world = std::make_shared<World>(rig.simulation, rig.helicopter);
+  hardware.world = std::make_shared<World>(rig.simulation, rig.helicopter, carried_s);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const CameraConfig& camera = rig.cameras[i];
     if (camera.source != "sim")

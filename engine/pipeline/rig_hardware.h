@@ -36,8 +36,9 @@ struct RigHardware {
 RigidTransform trueCameraFromWorld(const RigConfig& rig, CameraId camera);
 
 /// Opens every device of the rig. `tap` sees the frames of cameras that have images, on their capture
-/// threads. Throws Error(kDevice) for what cannot be opened.
+/// threads. In simulation the helicopter is carried about for `carried_s` before it stands on the pad. Throws
+/// Error(kDevice) for what cannot be opened.
 RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
-                    const ExtractingSource::FrameTap& tap = {});
+                    const ExtractingSource::FrameTap& tap = {}, double carried_s = 0.0);
 
 }  // namespace helical

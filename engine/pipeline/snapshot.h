@@ -30,6 +30,7 @@ struct CameraSnapshot {
   int boards = 0;                                     ///< before it, put there by the operator
   std::uint32_t knocks = 0;                           ///< by the operator, so far
   int knocks_found = 0;                               ///< how often it was found to have been moved
+  bool frozen = false;                                ///< by the operator: learns no more
   std::uint64_t frames = 0;                           ///< received
   std::uint64_t dropped = 0;                          ///< missing in the sequence
   double frames_per_second = 0.0;
@@ -80,6 +81,8 @@ struct EngineSnapshot {
   StickDemand sticks;
   const char* obstacle = nullptr;  ///< on the ground: why it could not take off now; a literal
   const char* refusal = nullptr;   ///< at the tick when a take-off order is given up: why; a literal
+  const char* cold_start = nullptr;  ///< no camera is calibrated: what the operator has to do; a literal
+  bool cameras_disagree = false;     ///< one of the two that are left was moved; which one, nobody can tell
   bool has_truth = false;          ///< simulated flights only
   HelicopterState truth;           ///< at `time`
   Verdict verdict;                 ///< valid with `has_truth`

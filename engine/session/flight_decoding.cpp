@@ -268,6 +268,20 @@ DecodedOrder decodeOrder(std::string_view payload) {
   order.camera = in.get<std::int32_t>();
   order.method = in.getText();
   order.seed = in.get<std::uint64_t>();
+  if (in.atEnd()) return order;  // recorded before there were such decisions
+  CalibrationOrder decided;
+  decided.camera = cameraId(std::clamp(order.camera, 0, kMaxCameras - 1));
+  std::array<double, 4> q;
+  for (double& each : q) each = in.get<double>();
+  decided.camera_from_world.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  for (double& each : decided.camera_from_world.translation) each = in.get<double>();
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column) decided.covariance(row, column) = in.get<double>();
+  for (const CalibrationOrderKind kind : kCalibrationOrderKinds)
+    if (order.kind == toString(kind)) {
+      decided.kind = kind;
+      order.decided = decided;
+    }
   return order;
 }
 

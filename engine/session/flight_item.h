@@ -5,6 +5,7 @@
 
 #include "engine/flight/autopilot.h"
 #include "engine/markers/observation.h"
+#include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/snapshot.h"
 
 namespace helical {
@@ -39,12 +40,19 @@ struct CameraBelief {
   CalibrationView view;
 };
 
+struct CalibrationDecided {
+  CalibrationOrder what;
+  TimeNs time = 0;
+};
+
 /// One thing that a session writes down, in the order in which it reached the flight thread. Allocates
 /// nothing.
 struct FlightItem {
   std::uint64_t order =
       0;  ///< counted from 1, also what was lost on the way to the disk; events and beliefs do not count
-  std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun, CameraBelief> what;
+  std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun, CalibrationDecided,
+               CameraBelief>
+      what;
 };
 
 }  // namespace helical

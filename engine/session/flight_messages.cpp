@@ -314,24 +314,35 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
   out.put(state.verdict.hardest_touch);
 }
 
-void encodeOrder(CdrWriter& out, std::uint64_t order, const CameraHidden& hidden) {
-  begin(out, hidden.time, kWorldFrame);
+namespace {
+
+void putOrder(CdrWriter& out, std::uint64_t order, TimeNs time, const char* kind, CameraId camera,
+              const char* method, std::uint64_t seed, const CalibrationOrder& decided) {
+  begin(out, time, kWorldFrame);
   out.put(order);
-  out.put(hidden.time);
-  out.putText(hidden.hidden ? "hide" : "show");
-  out.put(static_cast<std::int32_t>(hidden.camera.index()));
-  out.putText("");
-  out.put(std::uint64_t{0});
+  out.put(time);
+  out.putText(kind);
+  out.put(static_cast<std::int32_t>(camera.index()));
+  out.putText(method);
+  out.put(seed);
+  const Eigen::Quaterniond& q = decided.camera_from_world.rotation;
+  out.putAll(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+  out.putAll(decided.camera_from_world.translation);
+  out.putAll(decided.covariance);
+}
+
+}  // namespace
+
+void encodeOrder(CdrWriter& out, std::uint64_t order, const CameraHidden& hidden) {
+  putOrder(out, order, hidden.time, hidden.hidden ? "hide" : "show", hidden.camera, "", 0, {});
 }
 
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationBegun& begun) {
-  begin(out, begun.time, kWorldFrame);
-  out.put(order);
-  out.put(begun.time);
-  out.putText("calibrate");
-  out.put(static_cast<std::int32_t>(begun.camera.index()));
-  out.putText(begun.method);
-  out.put(begun.seed);
+  putOrder(out, order, begun.time, "calibrate", begun.camera, begun.method, begun.seed, {});
+}
+
+void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationDecided& decided) {
+  putOrder(out, order, decided.time, toString(decided.what.kind), decided.what.camera, "", 0, decided.what);
 }
 
 void encodeEvent(CdrWriter& out, const EngineEvent& event) {

@@ -56,6 +56,7 @@ void obey(const DecodedOrder& order, const RigConfig& rig, LockStep& flight) {
   if (order.camera < 0 || static_cast<std::size_t>(order.camera) >= rig.cameras.size()) throw CutShort();
   if (order.kind == "hide" || order.kind == "show")
     flight.hideCamera(cameraId(order.camera), order.kind == "hide");
+  if (order.decided) flight.orderCalibration(*order.decided);
   if (order.kind == "calibrate") flight.calibrate(cameraId(order.camera), order.method, order.seed);
 }
 

@@ -78,6 +78,12 @@ void Recorder::onCalibration(CameraId camera, const char* method, std::uint64_t 
   push();
 }
 
+void Recorder::onCalibrationOrder(const CalibrationOrder& order, TimeNs now) {
+  ++next_.order;
+  next_.what = CalibrationDecided{order, now};
+  push();
+}
+
 void Recorder::onEvent(const EngineEvent& event) {
   next_.what = event;  // tells of the things that count, and is none of them
   push();

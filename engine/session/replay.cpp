@@ -67,12 +67,13 @@ class Player {
     if (order.camera < 0 || static_cast<std::size_t>(order.camera) >= rig_.cameras.size()) throw CutShort();
     const CameraId id = cameraId(order.camera);
     if (order.kind == "hide" || order.kind == "show") loop_.hideCamera(id, order.kind == "hide");
+    if (order.decided) loop_.orderCalibration(*order.decided);
     const CameraConfig& camera = rig_.cameras[static_cast<std::size_t>(order.camera)];
-    if (order.kind != "calibrate" || !camera.camera_from_world) return;
+    if (order.kind != "calibrate") return;
     const std::string& method = changes_.other_calibrator ? rig_.calibrator : order.method;
     replay_.other_methods = replay_.other_methods || method != order.method;
     auto calibration = std::make_unique<CameraCalibration>(
-        method, camera.model, rig_.markers_in_body, *camera.camera_from_world, order.seed, rig_.calibration);
+        method, camera.model, rig_.markers_in_body, camera.camera_from_world, order.seed, rig_.calibration);
     loop_.swapCalibration(id, calibration);
   }
 

@@ -32,6 +32,17 @@ std::optional<RigidTransform> poseOf(const json& value) {
   return RigidTransform{Eigen::Quaterniond(q[0], q[1], q[2], q[3]), Eigen::Vector3d(t[0], t[1], t[2])};
 }
 
+json covarianceJson(const std::optional<Matrix6d>& covariance) {
+  if (!covariance) return nullptr;
+  return std::vector<double>(covariance->data(), covariance->data() + covariance->size());
+}
+
+/// Absent in sessions of the time when there was none.
+std::optional<Matrix6d> covarianceOf(const json& camera) {
+  if (!camera.contains("covariance") || camera.at("covariance").is_null()) return {};
+  return Matrix6d(Eigen::Map<const Matrix6d>(camera.at("covariance").get<std::array<double, 36>>().data()));
+}
+
 json camerasJson(const RigConfig& rig) {
   json cameras = json::array();
   const auto& truths = rig.simulation.true_camera_from_world;
@@ -39,6 +50,7 @@ json camerasJson(const RigConfig& rig) {
     cameras.push_back({{"id", rig.cameras[i].label},
                        {"camera_from_world", poseJson(rig.cameras[i].camera_from_world)},
                        {"initial", rig.cameras[i].pose_is_guess},
+                       {"covariance", covarianceJson(rig.cameras[i].pose_covariance)},
                        {"true_camera_from_world", i < truths.size() ? poseJson(truths[i]) : json(nullptr)}});
   return cameras;
 }
@@ -105,6 +117,7 @@ void applySettings(const json& value, SessionSettings& settings) {
     const json& camera = cameras.at(i);
     rig.cameras[i].camera_from_world = poseOf(camera.at("camera_from_world"));
     rig.cameras[i].pose_is_guess = camera.at("initial").get<bool>();
+    rig.cameras[i].pose_covariance = covarianceOf(camera);
     rig.simulation.true_camera_from_world[i] = poseOf(camera.at("true_camera_from_world"));
   }
 }

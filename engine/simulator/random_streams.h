@@ -11,6 +11,7 @@ enum class RandomStream : std::uint64_t {
   kPlacement,
   kGusts,
   kTransmitter,
+  kCarrying,
   kKnocks = 100,  ///< and below: one for each camera
   kExposures = 200,
   kObservations = 300,

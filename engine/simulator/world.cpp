@@ -33,7 +33,7 @@ HelicopterParameters drawn(const SimulationOptions& options, const HelicopterPar
 
 }  // namespace
 
-World::World(const SimulationOptions& options, const HelicopterParameters& nominal)
+World::World(const SimulationOptions& options, const HelicopterParameters& nominal, double carried_s)
     : options_(options),
       random_(randomStream(options.seed, RandomStream::kGusts)),
       dynamics_(drawn(options, nominal)),
@@ -43,6 +43,14 @@ World::World(const SimulationOptions& options, const HelicopterParameters& nomin
   const double x = kPadSigma * placement.normal(), y = kPadSigma * placement.normal();
   dynamics_.placeOnGround(x, y, kPadYaw * placement.uniform(-1.0, 1.0));
   history_[0].state = dynamics_.state();
+  if (carried_s > 0.0)
+    carried_.emplace(carried_s, dynamics_.state().world_from_body,
+                     randomStream(options.seed, RandomStream::kCarrying));
+}
+
+bool World::isCarried() const {
+  return carried_ && placed_at_step_ >= 0 &&
+         static_cast<double>(step_ - placed_at_step_) * kStepS < carried_->duration();
 }
 
 void World::advanceTo(TimeNs time) {
@@ -59,6 +67,11 @@ void World::stepOnce() {
   }
   if (placed_at_step_ < 0 && step_ >= earliest_placing_ && holds_ == 0) placed_at_step_ = step_;
   ++step_;
+  if (isCarried()) {
+    const double since_s = static_cast<double>(step_ - placed_at_step_) * kStepS;
+    history_[static_cast<std::size_t>(step_ % kHistory)] = {carried_->at(since_s), upper_angle_, lower_angle_};
+    return;
+  }
   if (placed_at_step_ >= 0 && !verdict_.crashed) {
     blow(kStepS);
     dynamics_.step(sticks_, airNow(), kStepS);

@@ -8,6 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/base/time.h"
 #include "engine/helicopter/dynamics.h"
+#include "engine/simulator/carried_path.h"
 #include "engine/simulator/simulation_options.h"
 #include "engine/simulator/verdict.h"
 
@@ -25,7 +26,8 @@ struct WorldSample {
 /// (one lock); samples can be taken up to 0.25 s back.
 class World {
  public:
-  World(const SimulationOptions& options, const HelicopterParameters& nominal);
+  /// `carried_s`: for so long somebody carries it about once it is there (0: it is put on the pad at once).
+  World(const SimulationOptions& options, const HelicopterParameters& nominal, double carried_s = 0.0);
 
   /// Simulates up to `time`; does nothing if that is past.
   void advanceTo(TimeNs time);
@@ -65,6 +67,8 @@ class World {
     StickDemand demand;
   };
   void stepOnce();
+  /// In somebody's hands now.
+  bool isCarried() const;
   void blow(double dt);
   Gust airNow() const;
   void judge();
@@ -86,6 +90,7 @@ class World {
   int holds_ = 0;
   double upper_angle_ = 0.0;
   double lower_angle_ = 0.0;
+  std::optional<CarriedPath> carried_;
   std::vector<WorldSample> history_;  // ring, by step
   Verdict verdict_;
 };

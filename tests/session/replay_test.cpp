@@ -59,6 +59,35 @@ TEST(Replay, TheSameSettingsGiveTheSameFlightBitForBit) {
   }
 }
 
+TEST(Replay, WhatTheOperatorDecidedAboutCalibrationsIsDecidedAgain) {
+  const TemporaryFolder folder;
+  const SessionSettings settings = test::hoverSettings(24);
+  {
+    Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kWait);
+    LockStep flight(settings.rig, settings.plan, &recorder);
+    for (int i = 0; i < kTicks; ++i) {
+      OperatorCommands commands;
+      commands.take_off = i == 60;
+      CalibrationOrder order;
+      order.camera = cameraId(2);
+      order.kind = i == 300 ? CalibrationOrderKind::kFreeze : CalibrationOrderKind::kResume;
+      if (i == 300 || i == 400) flight.orderCalibration(order);
+      if (i == 500) {
+        order.kind = CalibrationOrderKind::kAdopt;
+        order.camera_from_world = *settings.rig.simulation.true_camera_from_world[2];
+        order.camera_from_world.translation.x() += 1.0 / 300.0;
+        order.covariance = 1e-5 * Matrix6d::Identity();
+        flight.orderCalibration(order);
+      }
+      flight.tick(commands);
+    }
+  }
+  const Replay replay = replayed(folder / "a.mcap");
+  EXPECT_EQ(replay.ticks, static_cast<std::uint64_t>(kTicks));
+  EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
+  EXPECT_EQ(replay.missing, 0u);
+}
+
 TEST(Replay, CoveredCamerasAnswerWhatWouldHaveBeenKnown) {
   const TemporaryFolder folder;
   record(folder / "a.mcap", test::hoverSettings(22));

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/base/ids.h"
+#include "engine/geometry/camera_estimate.h"
+
+namespace helical {
+
+/// What an operator may decide about a camera's calibration, beside starting it anew.
+enum class CalibrationOrderKind : std::uint8_t {
+  kFreeze,    ///< learns no more and stays where it is; when it is knocked it leaves the control set all the same
+  kResume,    ///< learns on
+  kAccept,    ///< comes into the control set with what it knows now, whatever the rule of admission says
+  kTrustRig,  ///< stands where the rig file says
+  kAdopt,     ///< stands where the order says, from a calibration that was saved
+};
+
+inline constexpr std::array<CalibrationOrderKind, 5> kCalibrationOrderKinds{
+    CalibrationOrderKind::kFreeze, CalibrationOrderKind::kResume, CalibrationOrderKind::kAccept,
+    CalibrationOrderKind::kTrustRig, CalibrationOrderKind::kAdopt};
+
+/// A plain value on its way to the flight thread.
+struct CalibrationOrder {
+  CalibrationOrderKind kind = CalibrationOrderKind::kFreeze;
+  CameraId camera;
+  RigidTransform camera_from_world;         ///< of kAdopt
+  Matrix6d covariance = Matrix6d::Zero();  ///< of kAdopt; order of CameraEstimate
+};
+
+/// In one word, as sessions have it.
+const char* toString(CalibrationOrderKind kind);
+
+}  // namespace helical

@@ -1,0 +1,61 @@
+#include "engine/pipeline/calibration_record.h"
+
+#include <ctime>
+#include <filesystem>
+
+#include "engine/base/error.h"
+
+namespace helical {
+namespace {
+
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+SavedCalibration calibrationOf(const RigConfig& rig, const EngineSnapshot& now) {
+  SavedCalibration saved;
+  saved.rig = std::filesystem::path(rig.path).filename().string();
+  saved.written = utcNow();
+  saved.after_s = toSeconds(now.time);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraSnapshot& camera = now.cameras[i];
+    if (camera.estimate.status != CameraStatus::kCalibrated) continue;
+    const char* method = camera.calibration_method;
+    saved.cameras.push_back({rig.cameras[i].label, method != nullptr ? method : "given",
+                             camera.estimate.camera_from_world, camera.estimate.covariance});
+  }
+  if (saved.cameras.empty())
+    throw Error(ErrorKind::kInput, "no camera is calibrated: there is nothing to save", rig.path,
+                "wait until one is in the control set");
+  return saved;
+}
+
+std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig) {
+  std::vector<CalibrationOrder> orders;
+  for (const SavedCamera& camera : saved.cameras)
+    orders.push_back({CalibrationOrderKind::kAdopt, rig.camera(camera.label), camera.camera_from_world,
+                      camera.covariance});
+  return orders;
+}
+
+void giveCalibration(const SavedCalibration& saved, RigConfig& rig) {
+  rig.simulation.true_camera_from_world.resize(rig.cameras.size());
+  for (const SavedCamera& camera : saved.cameras) {
+    const auto index = static_cast<std::size_t>(rig.camera(camera.label).index());
+    CameraConfig& config = rig.cameras[index];
+    auto& truth = rig.simulation.true_camera_from_world[index];
+    if (!truth && !config.pose_is_guess) truth = config.camera_from_world;
+    config.camera_from_world = camera.camera_from_world;
+    config.pose_is_guess = false;
+    config.pose_covariance = camera.covariance;
+  }
+}
+
+}  // namespace helical

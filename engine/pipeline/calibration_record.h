@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/config/calibration_file.h"
+#include "engine/config/rig_config.h"
+#include "engine/pipeline/calibration_order.h"
+#include "engine/pipeline/snapshot.h"
+
+namespace helical {
+
+/// The cameras of the control set as they stand now. Throws Error(kInput) if there is none.
+SavedCalibration calibrationOf(const RigConfig& rig, const EngineSnapshot& now);
+
+/// To put every camera that the calibration names where it says. Throws Error(kInput) for one that the rig lacks.
+std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig);
+
+/// The rig with its cameras where the calibration says, as if its file said so. Where simulated ones truly are
+/// stays.
+void giveCalibration(const SavedCalibration& saved, RigConfig& rig);
+
+}  // namespace helical

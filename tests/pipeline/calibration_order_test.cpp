@@ -1,0 +1,133 @@
+// What the operator decides about a camera's calibration, and calibrations that are saved and adopted.
+
+#include "engine/pipeline/calibration_order.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "engine/pipeline/calibration_record.h"
+#include "engine/pipeline/flight_tap.h"
+#include "tests/pipeline/flight_fixture.h"
+
+namespace helical {
+namespace {
+
+constexpr int kSecond = 60;  // ticks
+
+struct Flight {
+  explicit Flight(const RigConfig& rig, FlightTap* tap = nullptr) : lock_step(rig, {}, tap) {}
+  const EngineSnapshot& run(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      OperatorCommands commands;
+      commands.take_off = ++tick == kSecond;
+      now = lock_step.tick(commands);
+    }
+    return now;
+  }
+  const char* order(CalibrationOrderKind kind, int camera) {
+    CalibrationOrder order;
+    order.kind = kind;
+    order.camera = cameraId(camera);
+    return lock_step.orderCalibration(order);
+  }
+  const CameraSnapshot& camera(std::size_t index) const { return now.cameras[index]; }
+
+  LockStep lock_step;
+  EngineSnapshot now;
+  int tick = 0;
+};
+
+TEST(CalibrationOrder, ACameraWithoutAPoseLearnsWithoutAGuess) {
+  Flight flight(test::shippedRig("paper", 1));
+  flight.run(1);
+  EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kUncalibrated);
+  flight.run(12 * kSecond);
+  EXPECT_STREQ(flight.camera(2).calibration_method, "joint");
+  EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
+  EXPECT_LT(cameraError(flight.camera(2).estimate.camera_from_world, flight.camera(2).true_camera_from_world).position,
+            0.01);
+}
+
+TEST(CalibrationOrder, AFrozenCameraLearnsNothingUntilItIsResumed) {
+  Flight flight(test::shippedRig("paper", 2));
+  flight.run(8 * kSecond);
+  ASSERT_EQ(flight.order(CalibrationOrderKind::kFreeze, 2), nullptr);
+  flight.run(1);
+  EXPECT_TRUE(flight.camera(2).frozen);
+  const Eigen::Vector3d frozen = flight.camera(2).estimate.camera_from_world.translation;
+  flight.run(kSecond);
+  EXPECT_EQ(flight.camera(2).estimate.camera_from_world.translation, frozen);
+  EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
+  ASSERT_EQ(flight.order(CalibrationOrderKind::kResume, 2), nullptr);
+  flight.run(kSecond);
+  EXPECT_NE(flight.camera(2).estimate.camera_from_world.translation, frozen);
+}
+
+TEST(CalibrationOrder, ACameraThatDoesNotKnowItsPlaceIsNotAccepted) {
+  Flight flight(test::shippedRig("paper", 3));
+  flight.run(1);
+  EXPECT_NE(flight.order(CalibrationOrderKind::kAccept, 2), nullptr);
+  EXPECT_NE(flight.order(CalibrationOrderKind::kAccept, 0), nullptr) << "it does not learn";
+  flight.run(kSecond);
+  EXPECT_NE(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
+}
+
+TEST(CalibrationOrder, AnAcceptedCameraComesInAtOnceAndStays) {
+  Flight flight(test::shippedRig("paper", 3));
+  while (flight.now.tick < 10 * kSecond && flight.order(CalibrationOrderKind::kAccept, 2) != nullptr) flight.run(1);
+  flight.run(1);
+  EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
+  flight.run(6 * kSecond);
+  EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
+}
+
+TEST(CalibrationOrder, TheRigFileIsTrustedOnlyWhereItSaysSomething) {
+  Flight flight(test::shippedRig("paper", 4));
+  flight.run(8 * kSecond);
+  EXPECT_NE(flight.order(CalibrationOrderKind::kTrustRig, 2), nullptr);
+  EXPECT_EQ(flight.order(CalibrationOrderKind::kTrustRig, 0), nullptr);
+  flight.run(1);
+  EXPECT_EQ(flight.camera(0).estimate.status, CameraStatus::kCalibrated);
+}
+
+TEST(CalibrationOrder, WhatOneFlightLearntAnotherOneAdopts) {
+  const RigConfig rig = test::shippedRig("paper", 5);
+  Flight first(rig);
+  first.run(12 * kSecond);
+  const SavedCalibration saved = calibrationOf(rig, first.now);
+  ASSERT_EQ(saved.cameras.size(), 3u);
+  EXPECT_EQ(saved.cameras[0].method, "given");
+  EXPECT_EQ(saved.cameras[2].method, "joint");
+  Flight second(rig);
+  for (const CalibrationOrder& order : adoptOrders(saved, rig))
+    EXPECT_EQ(second.lock_step.orderCalibration(order), nullptr);
+  second.run(3);
+  EXPECT_EQ(second.camera(2).estimate.status, CameraStatus::kCalibrated);
+  EXPECT_EQ(second.camera(2).calibration_method, nullptr);
+  EXPECT_EQ(second.camera(2).estimate.camera_from_world.translation, saved.cameras[2].camera_from_world.translation);
+  EXPECT_EQ(second.camera(2).estimate.covariance, saved.cameras[2].covariance);
+}
+
+TEST(CalibrationOrder, ACalibrationOfAnotherRigIsRefused) {
+  SavedCalibration saved;
+  saved.cameras.push_back({"nobody", "joint", {}, Matrix6d::Zero()});
+  RigConfig rig = test::shippedRig("paper", 6);
+  EXPECT_THROW(adoptOrders(saved, rig), Error);
+  EXPECT_THROW(giveCalibration(saved, rig), Error);
+}
+
+TEST(CalibrationOrder, ARigIsGivenACalibrationAndKeepsItsTruth) {
+  RigConfig rig = test::shippedRig("calibrated", 7);
+  const RigidTransform truth = *rig.cameras[1].camera_from_world;
+  SavedCalibration saved;
+  RigidTransform elsewhere = truth;
+  elsewhere.translation.x() += 0.01;
+  saved.cameras.push_back({"2", "joint", elsewhere, Matrix6d::Identity()});
+  giveCalibration(saved, rig);
+  EXPECT_EQ(rig.cameras[1].camera_from_world->translation, elsewhere.translation);
+  EXPECT_EQ(rig.simulation.true_camera_from_world[1]->translation, truth.translation);
+  EXPECT_FALSE(rig.cameras[1].learns());
+}
+
+}  // namespace
+}  // namespace helical

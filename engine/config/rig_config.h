@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/cameras/device_options.h"
 #include "engine/flight/controller_options.h"
 #include "engine/flight/supervisor_options.h"
 #include "engine/geometry/camera_estimate.h"
@@ -21,7 +22,8 @@ namespace helical {
 struct CameraConfig {
   std::string label;   ///< `id` of the rig file: what users call it
   std::string name;    ///< shown as title; "Camera <id>" if the file gives none
-  std::string source;  ///< "sim", or empty in a rig for recordings
+  std::string source;  ///< "sim", "aravis:ADDRESS-OR-SERIAL", or empty in a rig for recordings
+  DeviceOptions device;  ///< of a source that is a device
   CameraModel model;
   std::optional<RigidTransform> camera_from_world;  ///< nothing: un-calibrated
   bool pose_is_guess = false;                       ///< `initial = true`
@@ -39,6 +41,8 @@ struct RigConfig {
   ControllerOptions control;
   SupervisorOptions safety;
   SimulationOptions simulation;
+  std::string transmitter = "simulated";          ///< or "loopback", "none"
+  std::string transmitter_address;                ///< of "loopback"
   std::string tracker = "helical";  ///< or "paper", to compare with
   /// Cameras learn from any pose, also one that they helped to find: what the paper does after the switch.
   /// Otherwise only from a pose that other cameras vouch for.

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/config/device_table.h"
 #include "engine/config/rig_options.h"
 #include "engine/config/text_file.h"
 #include "engine/config/toml_table.h"
@@ -34,11 +35,12 @@ std::string readLabel(TomlTable& table) {
 std::string readSource(TomlTable& table) {
   const std::string source = table.text("source").value_or("");
   if (source.empty() || source == "sim") return source;
-  for (const char* kind : {"aravis:", "webcam:", "file:"})
+  if (source.starts_with("aravis:") && source.size() > std::string("aravis:").size()) return source;
+  for (const char* kind : {"webcam:", "file:"})
     if (source.starts_with(kind))
       table.fail("source", "cameras from '" + std::string(kind) + "' are not built yet",
-                 "use source = \"sim\"");
-  table.fail("source", "unknown source '" + source + "'", "use source = \"sim\"");
+                 "use source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
+  table.fail("source", "unknown source '" + source + "'", "use source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
 }
 
 CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, TomlTable table) {
@@ -98,8 +100,9 @@ CameraConfig readCamera(TomlTable& table) {
   camera.source = readSource(table);
   const Eigen::VectorXd vga = Eigen::Vector2d(640, 480);
   const Eigen::VectorXd size = table.required("size", table.numbers("size", 2), vga, "size = [640, 480]");
-  TomlTable intrinsics = table.table("intrinsics"), pose = table.table("pose");
+  TomlTable intrinsics = table.table("intrinsics"), pose = table.table("pose"), device = table.table("device");
   table.finish();
+  readDeviceOptions(std::move(device), camera.device);
   camera.model = readModel(table, size, std::move(intrinsics));
   if (!table.has("pose")) return camera;
   camera.pose_is_guess = pose.boolean("initial").value_or(false);
@@ -178,7 +181,7 @@ RigConfig parseRig(std::string_view toml, const std::string& name) {
   readTrackerOptions(root.table("tracking"), rig.tracking);
   readControllerOptions(root.table("flight"), rig.control);
   readSupervisorOptions(root.table("safety"), rig.safety);
-  readTransmitter(root.table("transmitter"));
+  readTransmitter(root.table("transmitter"), rig);
   readCalibration(root.table("calibration"), rig);
   readSimulation(root.table("simulation"), rig);
   root.finish();

@@ -240,11 +240,13 @@ void readSimulationOptions(TomlTable& table, SimulationOptions& options) {
   noise.locate([&] { validate(options); });
 }
 
-void readTransmitter(TomlTable table) {
-  const std::string kind = table.text("kind").value_or("simulated");
+void readTransmitter(TomlTable table, RigConfig& rig) {
+  rig.transmitter = table.text("kind").value_or("simulated");
+  rig.transmitter_address = table.text("address").value_or("127.0.0.1:5391");
   table.finish();
-  if (kind != "simulated")
-    table.fail("kind", "the transmitter '" + kind + "' is not built yet", "use kind = \"simulated\"");
+  if (rig.transmitter != "simulated" && rig.transmitter != "loopback" && rig.transmitter != "none")
+    table.fail("kind", "the transmitter '" + rig.transmitter + "' is not built yet",
+               "use kind = \"simulated\", \"loopback\" or \"none\"");
 }
 
 void readCalibration(TomlTable table, RigConfig& rig) {

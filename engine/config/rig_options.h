@@ -13,7 +13,7 @@ void readTrackerOptions(TomlTable table, TrackerOptions& options);
 void readControllerOptions(TomlTable table, ControllerOptions& options);
 void readSupervisorOptions(TomlTable table, SupervisorOptions& options);
 void readSimulationOptions(TomlTable& table, SimulationOptions& options);
-void readTransmitter(TomlTable table);
+void readTransmitter(TomlTable table, RigConfig& rig);
 /// The method and what users set of all methods.
 void readCalibration(TomlTable table, RigConfig& rig);
 

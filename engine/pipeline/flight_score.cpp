@@ -33,6 +33,7 @@ void FlightScore::add(const EngineSnapshot& tick) {
   const double dt = last_time_ > 0 ? toSeconds(tick.time - last_time_) : 0.0;
   last_time_ = tick.time;
   failsafes_ |= tick.failsafes;
+  has_flown_ = has_flown_ || inTheAir(tick.phase);
   if (!rotorsTurn(tick.phase)) return;
   if (!tick.pose_known) lost_s_ += dt;
   for (std::size_t c = 0; c < static_cast<std::size_t>(tick.camera_count); ++c) {
@@ -103,6 +104,15 @@ std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes) {
   if (verdict.crashed) return "crashed";
   if (!verdict.has_flown || !verdict.at_rest) return "aborted";
   return (failsafes & kEndingFailsafes) != 0 ? "failsafe-landed" : "landed";
+}
+
+std::string outcomeOf(const EngineSnapshot& last, const FlightScore& score) {
+  Verdict verdict = last.verdict;
+  if (!last.has_truth) {
+    verdict.has_flown = score.hasFlown();
+    verdict.at_rest = last.phase == FlightPhase::kOff;
+  }
+  return outcomeOf(verdict, score.failsafes());
 }
 
 std::vector<std::string> failsafeNames(std::uint32_t failsafes) {

@@ -50,6 +50,7 @@ class FlightScore {
     return converged_s_[static_cast<std::size_t>(camera.index())];
   }
   std::uint32_t failsafes() const { return failsafes_; }
+  bool hasFlown() const { return has_flown_; }  ///< as the flight itself saw it
 
  private:
   double mean(double sum) const { return nees_samples_ > 0 ? sum / static_cast<double>(nees_samples_) : 0.0; }
@@ -64,6 +65,7 @@ class FlightScore {
   TimeNs last_time_ = 0;
   TimeNs hover_since_ = -1;
   std::uint32_t failsafes_ = 0;
+  bool has_flown_ = false;
   std::array<std::uint64_t, kMaxCameras> selected_{};
   std::array<std::uint64_t, kMaxCameras> shown_{};
   std::array<TimeNs, kMaxCameras> last_exposure_{};
@@ -87,6 +89,8 @@ double calibrationNees(const CameraEstimate& estimate, const RigidTransform& tru
 
 /// "landed", "crashed", "failsafe-landed" or "aborted", as `helical fly` reports it.
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes);
+/// The same of a flight's last state; without the truth as the flight itself saw it: rotors off after it was airborne.
+std::string outcomeOf(const EngineSnapshot& last, const FlightScore& score);
 
 /// Names of the failsafes in a bit set.
 std::vector<std::string> failsafeNames(std::uint32_t failsafes);

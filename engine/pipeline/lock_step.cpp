@@ -1,15 +1,25 @@
 #include "engine/pipeline/lock_step.h"
 
+#include "engine/base/error.h"
+#include "engine/pipeline/rig_devices.h"
+
 namespace helical {
 namespace {
 
 constexpr TimeNs kStep = kNanosecondsPerMillisecond;
 
+const RigConfig& simulatedOnly(const RigConfig& rig) {
+  if (needsRealTime(rig))
+    throw Error(ErrorKind::kInput, "this rig's cameras or transmitter live in real time", rig.path,
+                "fly it with --realtime");
+  return rig;
+}
+
 }  // namespace
 
 LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
     : clock_(std::make_shared<ManualClock>()),
-      hardware_(openRig(rig, clock_)),
+      hardware_(openRig(simulatedOnly(rig), clock_)),
       loop_(rig, plan),
       output_(*hardware_.transmitter),
       tap_(tap),

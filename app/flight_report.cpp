@@ -37,9 +37,10 @@ json calibrationJson(const FlightRun& run, std::size_t index) {
   const CameraSnapshot& camera = run.last.cameras[index];
   fields["bumps_detected"] = camera.knocks_found;
   if (camera.calibration_method == nullptr) return fields;
+  fields["method"] = camera.calibration_method;
+  if (!camera.has_truth) return fields;
   const CameraError error = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world);
   const double converged_s = run.score.convergedAfter(cameraId(static_cast<int>(index)));
-  fields["method"] = camera.calibration_method;
   fields["time_to_1cm_s"] = converged_s >= 0.0 ? json(converged_s) : json(nullptr);
   fields["position_error_m"] = error.position;
   fields["orientation_error_deg"] = toDegrees(error.orientation);
@@ -67,12 +68,14 @@ json cameraJson(const FlightRun& run, const CameraConfig& config, std::size_t in
           {"calibrated", camera.estimate.status == CameraStatus::kCalibrated},
           {"frames", camera.frames},
           {"dropped", camera.dropped},
+          {"returns", camera.returns},
+          {"resent_packets", camera.resent_packets},
           {"extraction_us", microseconds(camera.extraction_p50, camera.extraction_p99)},
           {"calibration", calibrationJson(run, index)}};
 }
 
 std::string outcome(const FlightRun& run) {
-  return outcomeOf(run.last.verdict, run.score.failsafes());
+  return outcomeOf(run.last, run.score);
 }
 
 std::string line(const char* format, auto... values) {
@@ -102,7 +105,7 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["control"] = {{"position_rms_m", figure(score.hoverHorizontal())},
                        {"height_rms_m", figure(score.hoverHeight())},
                        {"yaw_rms_deg", figure(score.hoverYaw(), toDegrees(1.0))}};
-  report["touchdown_m_s"] = run.last.verdict.hardest_touch;
+  report["touchdown_m_s"] = run.last.has_truth ? json(run.last.verdict.hardest_touch) : json(nullptr);
   report["cameras"] = json::array();
   json selected = json::object();
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -146,7 +149,7 @@ std::string flightText(const FlightRun& run, const RigConfig& rig) {
       text += line(", extraction %.0f us (99 %%: %.0f)", static_cast<double>(camera.extraction_p50) * 1e-3,
                    static_cast<double>(camera.extraction_p99) * 1e-3);
     text += "\n";
-    if (camera.calibration_method != nullptr) {
+    if (camera.calibration_method != nullptr && camera.has_truth) {
       const CameraError error = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world);
       text += line("             by %s: %.1f mm and %.2f deg from its true place\n",
                    camera.calibration_method, 1e3 * error.position, toDegrees(error.orientation));

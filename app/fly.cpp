@@ -22,6 +22,7 @@
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/calibration_record.h"
 #include "engine/pipeline/first_guess.h"
+#include "engine/pipeline/rig_devices.h"
 #include "engine/session/recorder.h"
 
 namespace helical {
@@ -63,9 +64,23 @@ void calibrateInFlight(const FlyArguments& arguments, RigConfig& rig) {
                    given ? arguments.initial_error[1] : kFirstGuessErrorM, arguments.seed, given);
 }
 
+/// What changes the simulated field would do nothing to a real one.
+void refuseSimulationOptions(const FlyArguments& a, const RigConfig& rig) {
+  if (!a.realtime)
+    throw Error(ErrorKind::kInput, "this rig's cameras or transmitter live in real time", rig.path,
+                "fly it with --realtime");
+  const bool simulated = !a.occlude.empty() || !a.bump.empty() || a.pixel_noise >= 0.0 || a.outliers >= 0.0 ||
+                         a.gust >= 0.0 || a.vary >= 0.0 || a.no_images;
+  if (simulated)
+    throw Error(ErrorKind::kInput, "an option changes the simulated field, and this rig's is real", rig.path,
+                "leave out --occlude, --bump, --pixel-noise, --outliers, --gust, --vary and --no-images; `helical serve` "
+                "takes some of them");
+}
+
 RigConfig configuredRig(const FlyArguments& arguments) {
   RigConfig rig = loadRig(arguments.rig.empty() ? resourceFolder() / "rigs" / "paper.toml"
                                                 : std::filesystem::path(arguments.rig));
+  if (needsRealTime(rig)) refuseSimulationOptions(arguments, rig);
   SimulationOptions& simulation = rig.simulation;
   simulation.seed = arguments.seed;
   simulation.images = !arguments.no_images;
@@ -73,7 +88,10 @@ RigConfig configuredRig(const FlyArguments& arguments) {
   if (arguments.outliers >= 0.0) simulation.noise.outliers = arguments.outliers;
   if (arguments.gust >= 0.0) simulation.gust_factor = arguments.gust;
   if (arguments.vary >= 0.0) simulation.vary = arguments.vary;
-  if (arguments.rate > 0.0) simulation.camera_rate_hz = arguments.rate;
+  if (arguments.rate > 0.0) {
+    simulation.camera_rate_hz = arguments.rate;
+    for (CameraConfig& camera : rig.cameras) camera.device.rate_hz = arguments.rate;
+  }
   if (!arguments.tracker.empty()) rig.tracker = arguments.tracker;
   for (const auto& text : arguments.occlude) simulation.occlusions.push_back(parseOcclusion(text, rig));
   for (const auto& text : arguments.bump) simulation.bumps.push_back(parseBump(text, rig));
@@ -151,14 +169,14 @@ int fly(const FlyArguments& arguments) {
   if (std::fputs(report.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw Error(ErrorKind::kSystem, "the report cannot be written to standard output", {},
                 "check the disk or the pipe");
-  return outcomeOf(run.last.verdict, run.score.failsafes()) == "landed" ? 0 : 1;
+  return outcomeOf(run.last, run.score) == "landed" ? 0 : 1;
 }
 
 }  // namespace
 
 void addFlyCommand(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<FlyArguments>();
-  CLI::App* command = app.add_subcommand("fly", "Fly once, headless, in simulation");
+  CLI::App* command = app.add_subcommand("fly", "Fly once, headless");
   command->add_option("--rig", arguments->rig, "Rig file (default: the paper's rig)");
   command->add_option("--plan", arguments->plan, "Flight plan: hover, waypoints, or a file")
       ->capture_default_str();

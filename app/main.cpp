@@ -12,6 +12,7 @@
 #include "app/option_values.h"
 #include "app/recover.h"
 #include "app/replay.h"
+#include "app/serve.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #ifdef HELICAL_HAS_WINDOW
@@ -101,6 +102,7 @@ int main(int argc, char** argv) {
   helical::addExportCommand(app, exit_code);
   helical::addRecoverCommand(app, exit_code);
   helical::addReplayCommand(app, exit_code);
+  helical::addServeCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

@@ -104,4 +104,24 @@ std::vector<ImageRecording> parseImageRecordings(const std::vector<std::string>&
   return images;
 }
 
+ScheduledFault parseFault(const std::string& text, ScheduledFault::Kind kind, const std::string& option,
+                          const RigConfig& rig) {
+  const bool clock = kind == ScheduledFault::Kind::kClock;
+  const bool valued = clock || kind == ScheduledFault::Kind::kLoss || kind == ScheduledFault::Kind::kJitter;
+  const std::string form = std::string("CAM@FROM-TO") + (clock ? ":S,PPM" : valued ? ":VALUE" : "") + ", as in 2@8-11" +
+                           (clock ? ":0.02,50" : valued ? ":0.01" : "");
+  Scanner scanner(text, option, form);
+  ScheduledFault fault;
+  fault.kind = kind;
+  fault.camera = static_cast<std::size_t>(rig.camera(scanner.label('@')).index());
+  fault.from_s = scanner.number('-');
+  fault.to_s = valued ? scanner.number(':') : scanner.number();
+  if (valued) fault.value = clock ? scanner.number(',') : scanner.number();
+  if (clock) fault.drift = 1e-6 * scanner.number();
+  const bool share = kind == ScheduledFault::Kind::kLoss;
+  if (!(fault.to_s > fault.from_s) || (!clock && fault.value < 0.0) || (share && fault.value > 1.0))
+    throw Error(ErrorKind::kInput, option + " " + text + " cannot be", {}, "give " + form);
+  return fault;
+}
+
 }  // namespace helical

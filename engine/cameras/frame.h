@@ -33,6 +33,8 @@ struct Frame {
   TimeNs exposure = 0;         ///< mid-exposure
   TimeNs arrival = 0;          ///< when the last byte reached this machine
   ImageView image;
+  TimeNs first_packet = 0;  ///< when the first byte reached this machine; 0 where nobody tells
+  TimeNs device_time = 0;   ///< of the exposure on the camera's own clock, as it stamped it; 0 without one
 };
 
 }  // namespace helical

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/cameras/device_options.h"
 #include "engine/flight/controller_options.h"
 #include "engine/flight/supervisor_options.h"
 #include "engine/geometry/camera_estimate.h"
@@ -23,7 +24,8 @@ namespace helical {
 struct CameraConfig {
   std::string label;   ///< `id` of the rig file: what users call it
   std::string name;    ///< shown as title; "Camera <id>" if the file gives none
-  std::string source;  ///< "sim", or empty in a rig for recordings
+  std::string source;  ///< "sim", "aravis:ADDRESS-OR-SERIAL", or empty in a rig for recordings
+  DeviceOptions device;  ///< of a source that is a device
   CameraModel model;
   std::optional<RigidTransform> camera_from_world;  ///< nothing: un-calibrated
   bool pose_is_guess = false;                       ///< `initial = true`

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/config/device_table.h"
 #include "engine/config/pose_table.h"
 #include "engine/config/rig_options.h"
 #include "engine/config/text_file.h"
@@ -30,11 +31,12 @@ std::string readLabel(TomlTable& table) {
 std::string readSource(TomlTable& table) {
   const std::string source = table.text("source").value_or("");
   if (source.empty() || source == "sim") return source;
-  for (const char* kind : {"aravis:", "webcam:", "file:"})
+  if (source.starts_with("aravis:") && source.size() > std::string("aravis:").size()) return source;
+  for (const char* kind : {"webcam:", "file:"})
     if (source.starts_with(kind))
       table.fail("source", "cameras from '" + std::string(kind) + "' are not built yet",
-                 "use source = \"sim\"");
-  table.fail("source", "unknown source '" + source + "'", "use source = \"sim\"");
+                 "use source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
+  table.fail("source", "unknown source '" + source + "'", "use source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
 }
 
 CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, TomlTable table) {
@@ -67,8 +69,9 @@ CameraConfig readCamera(TomlTable& table) {
   const Eigen::VectorXd vga = Eigen::Vector2d(640, 480);
   const Eigen::VectorXd size = table.required("size", table.numbers("size", 2), vga, "size = [640, 480]");
   camera.ignored_areas = table.polygons("ignored_areas_px").value_or(IgnoredAreas{});
-  TomlTable intrinsics = table.table("intrinsics"), pose = table.table("pose");
+  TomlTable intrinsics = table.table("intrinsics"), pose = table.table("pose"), device = table.table("device");
   table.finish();
+  readDeviceOptions(std::move(device), camera.device);
   camera.model = readModel(table, size, std::move(intrinsics));
   if (!table.has("pose")) return camera;
   camera.pose_is_guess = pose.boolean("initial").value_or(false);

@@ -280,10 +280,12 @@ void readSimulationOptions(TomlTable& table, SimulationOptions& options) {
 
 void readTransmitterOptions(TomlTable table, TransmitterOptions& options) {
   options.kind = table.text("kind").value_or(options.kind);
-  if (options.kind != "simulated" && options.kind != "loopback")
+  const auto kinds = transmitterKinds();
+  if (std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end())
     table.fail("kind", "the transmitter '" + options.kind + "' is not built yet",
-               "use kind = \"simulated\" or \"loopback\"");
+               "use kind = \"simulated\", \"output-process\", \"loopback\" or \"none\"");
   options.device = table.text("device").value_or(options.device);
+  options.address = table.text("address").value_or(options.address);
   readOptions(table, kGuardFields, options.guard);
   readAndValidate(table, kTransmitterFields, options);
 }

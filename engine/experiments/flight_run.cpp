@@ -98,7 +98,7 @@ double plannedSeconds(const FlightPlan& plan) {
 }
 
 bool FlightEnd::isOver(const EngineSnapshot& now) {
-  const bool landed = now.phase == FlightPhase::kOff && now.verdict.at_rest;
+  const bool landed = now.phase == FlightPhase::kOff && (now.verdict.at_rest || !now.has_truth);
   if (!landed && !now.verdict.crashed)
     ended_ = -1;
   else if (ended_ < 0)

@@ -134,6 +134,24 @@ void Announcer::announceRecord(const EngineSnapshot& now, const Sink& raise) {
   record_ = now.devices.record;
 }
 
+void Announcer::announceLink(const EngineSnapshot& now, std::size_t camera, const Sink& raise) const {
+  const CameraSnapshot& state = now.cameras[camera];
+  switch (state.link) {
+    case LinkState::kStalled:
+      return raise(event(now.time, Severity::kCaution, camera, "sends no frame any more, looked for again"));
+    case LinkState::kTaken:
+      return raise(event(now.time, Severity::kCaution, camera, "controlled by another host"));
+    case LinkState::kLost:
+      return raise(event(now.time, Severity::kCaution, camera, "does not answer: cable or power?"));
+    case LinkState::kStreaming:
+      if (state.returns > 0) raise(event(now.time, Severity::kGood, camera, "is back, with its settings"));
+      return;
+    case LinkState::kOpening:
+    case LinkState::kAlways:
+      return;
+  }
+}
+
 void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise) {
   const CameraSnapshot& state = now.cameras[camera];
   Camera& before = cameras_[camera];
@@ -152,7 +170,8 @@ void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, co
     raise_if(status == CameraStatus::kCalibrating && before.status == CameraStatus::kCalibrated,
              Severity::kCaution, "out of the control set, calibrating");
   }
-  before = {status, state.hidden, state.boards, state.knocks};
+  if (state.link != before.link) announceLink(now, camera, raise);
+  before = {status, state.hidden, state.boards, state.knocks, state.link};
 }
 
 }  // namespace helical

@@ -33,10 +33,12 @@ class Announcer {
     bool hidden = false;
     int boards = 0;
     std::uint32_t knocks = 0;
+    LinkState link = LinkState::kAlways;
   };
   void announceRecord(const EngineSnapshot& now, const Sink& raise);
   void announceArming(const EngineSnapshot& now, const Sink& raise);
   void announceSafety(const EngineSnapshot& now, const Sink& raise);
+  void announceLink(const EngineSnapshot& now, std::size_t camera, const Sink& raise) const;
   void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
 
   std::vector<std::string> names_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cstdio>
-#include <cstring>
 #include <semaphore>
 #include <thread>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/spsc_queue.h"
+#include "engine/cameras/demosaic.h"
 #include "engine/config/calibration_file.h"
 #include "engine/pipeline/announcer.h"
 #include "engine/pipeline/calibration_record.h"
@@ -55,29 +55,12 @@ class PictureTap {
     picture.width = frame.image.width;
     picture.height = frame.image.height;
     picture.observation = observation;
-    const auto row_bytes = static_cast<std::size_t>(3 * frame.image.width);
-    picture.bgr.resize(row_bytes * static_cast<std::size_t>(frame.image.height));
-    for (int y = 0; y < frame.image.height; ++y)
-      copyRow(frame.image, y, picture.bgr.data() + row_bytes * static_cast<std::size_t>(y));
+    toBgr(frame.image, picture.bgr);
     pictures_.publish();
   }
   LatestValue<CameraPicture>& pictures() { return pictures_; }
 
  private:
-  static void copyRow(const ImageView& image, int y, std::uint8_t* to) {
-    const std::uint8_t* from = image.row(y);
-    if (image.format == PixelFormat::kBgr8) {
-      std::memcpy(to, from, static_cast<std::size_t>(3 * image.width));
-      return;
-    }
-    for (int x = 0; x < image.width; ++x) {
-      if (image.format == PixelFormat::kRgb8)
-        std::reverse_copy(from + 3 * x, from + 3 * x + 3, to + 3 * x);
-      else
-        std::memset(to + 3 * x, from[x], 3);  // Bayer as it is: a preview in grey
-    }
-  }
-
   LatestValue<CameraPicture> pictures_;
   TimeNs last_ = -1;
 };
@@ -226,6 +209,7 @@ void Engine::Implementation::tick(TimeNs now) {
   EngineSnapshot& snapshot = newest.back();
   snapshot = loop.snapshot();
   hardware.addTruth(snapshot, now);
+  hardware.addLinks(snapshot);
   addOrders(snapshot);
   measureRate(snapshot);
   showCalibrations(snapshot.tick, now);

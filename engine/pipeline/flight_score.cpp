@@ -36,6 +36,7 @@ void FlightScore::add(const EngineSnapshot& tick) {
   failsafes_ |= tick.failsafes;
   failing_checks_ = tick.failing_checks;
   armed_ = armed_ || tick.armed;
+  has_flown_ = has_flown_ || inTheAir(tick.phase);
   if (!rotorsTurn(tick.phase)) return;
   if (!tick.pose_known) lost_s_ += dt;
   for (std::size_t c = 0; c < static_cast<std::size_t>(tick.camera_count); ++c) {
@@ -113,6 +114,15 @@ std::vector<std::string> checkReasons(std::uint32_t failing_checks) {
   for (std::uint32_t bits = failing_checks; bits != 0; bits &= bits - 1)
     reasons.emplace_back(toString(static_cast<PreArmCheck>(bits & (~bits + 1))));
   return reasons;
+}
+
+std::string outcomeOf(const EngineSnapshot& last, const FlightScore& score) {
+  Verdict verdict = last.verdict;
+  if (!last.has_truth) {
+    verdict.has_flown = score.hasFlown();
+    verdict.at_rest = last.phase == FlightPhase::kOff;
+  }
+  return outcomeOf(verdict, score.failsafes());
 }
 
 std::vector<std::string> failsafeNames(std::uint32_t failsafes) {

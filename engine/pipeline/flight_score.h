@@ -52,6 +52,7 @@ class FlightScore {
   std::uint32_t failsafes() const { return failsafes_; }
   /// Pre-arm checks that still failed at the end of a flight that was never armed; 0 for any other.
   std::uint32_t unarmedBecause() const { return armed_ ? 0 : failing_checks_; }
+  bool hasFlown() const { return has_flown_; }  ///< as the flight itself saw it
 
  private:
   double mean(double sum) const { return nees_samples_ > 0 ? sum / static_cast<double>(nees_samples_) : 0.0; }
@@ -68,6 +69,7 @@ class FlightScore {
   std::uint32_t failsafes_ = 0;
   std::uint32_t failing_checks_ = 0;
   bool armed_ = false;
+  bool has_flown_ = false;
   std::array<std::uint64_t, kMaxCameras> selected_{};
   std::array<std::uint64_t, kMaxCameras> shown_{};
   std::array<TimeNs, kMaxCameras> last_exposure_{};
@@ -91,6 +93,8 @@ double calibrationNees(const CameraEstimate& estimate, const RigidTransform& tru
 
 /// "landed", "crashed", "failsafe-landed" or "aborted", as `helical fly` reports it.
 std::string outcomeOf(const Verdict& verdict, std::uint32_t failsafes);
+/// The same of a flight's last state; without the truth as the flight itself saw it: rotors off after it was airborne.
+std::string outcomeOf(const EngineSnapshot& last, const FlightScore& score);
 
 /// The reasons of the checks in a bit set.
 std::vector<std::string> checkReasons(std::uint32_t failing_checks);

@@ -2,17 +2,17 @@
 
 #include "engine/base/error.h"
 #include "engine/pipeline/calibration_view.h"
+#include "engine/pipeline/rig_devices.h"
 
 namespace helical {
 namespace {
 
 constexpr TimeNs kStep = kNanosecondsPerMillisecond;
 
-/// An output process has the wall's clock.
-const RigConfig& onSimulatedTime(const RigConfig& rig) {
-  if (rig.transmitter.kind != "simulated")
-    throw Error(ErrorKind::kInput, "the transmitter '" + rig.transmitter.kind + "' flies in real time only",
-                rig.path, "fly with --realtime, or use kind = \"simulated\"");
+const RigConfig& simulatedOnly(const RigConfig& rig) {
+  if (needsRealTime(rig))
+    throw Error(ErrorKind::kInput, "this rig's cameras or transmitter live in real time", rig.path,
+                "fly it with --realtime");
   return rig;
 }
 
@@ -21,7 +21,7 @@ const RigConfig& onSimulatedTime(const RigConfig& rig) {
 LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
     : rig_(rig),
       clock_(std::make_shared<ManualClock>()),
-      hardware_(openRig(onSimulatedTime(rig), clock_,
+      hardware_(openRig(simulatedOnly(rig), clock_,
                         [tap](const Frame& frame, const Observation& observation) {
                           if (tap != nullptr) tap->onFrame(frame, observation);
                         },

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/clock.h"
+#include "engine/cameras/camera_link.h"
 #include "engine/config/rig_config.h"
 #include "engine/markers/extracting_source.h"
 #include "engine/pipeline/boarded_sources.h"
@@ -25,10 +26,13 @@ struct RigHardware {
   std::shared_ptr<World> world;
   std::vector<std::shared_ptr<WhiteBoardsChannel>> boards;  ///< one per camera
   std::vector<std::shared_ptr<ExtractorOrders>> orders;     ///< one per camera
-  std::vector<CameraDisturbances> disturbances;             ///< of simulated cameras: where they truly are
+  std::vector<std::optional<CameraDisturbances>> disturbances;  ///< of simulated cameras: where they truly are
+  std::vector<std::shared_ptr<CameraLink>> links;               ///< one per camera
 
   /// Adds the truth of a simulated rig to a snapshot taken at `now`; leaves that of a real one alone.
   void addTruth(EngineSnapshot& snapshot, TimeNs now) const;
+  /// Adds how the cameras' devices stand to this machine.
+  void addLinks(EngineSnapshot& snapshot) const;
 };
 
 /// Where a simulated camera truly is before anybody knocks it. Throws Error(kInput) when the rig does not

@@ -8,6 +8,7 @@
 
 #include "engine/base/time.h"
 #include "engine/calibration/cramer_rao.h"
+#include "engine/cameras/camera_link.h"
 #include "engine/cameras/frame.h"
 #include "engine/flight/flight_state.h"
 #include "engine/geometry/camera_estimate.h"
@@ -38,6 +39,11 @@ struct CameraSnapshot {
   int centroids = 0;          ///< regions found in the newest frame
   TimeNs extraction_p50 = 0;  ///< processor time a frame; 0 without images
   TimeNs extraction_p99 = 0;
+  LinkState link = LinkState::kAlways;   ///< of its device
+  std::uint64_t returns = 0;             ///< how often the device was lost and came back
+  std::uint64_t resent_packets = 0;
+  TimeNs transfer = 0;         ///< first packet to the frame in hand, newest frame
+  double clock_sigma_s = 0.0;  ///< how well the device's clock is known
   CameraTrack track;
 };
 

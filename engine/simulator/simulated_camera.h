@@ -4,9 +4,8 @@
 
 #include "engine/base/clock.h"
 #include "engine/cameras/camera_source.h"
-#include "engine/simulator/disturbances.h"
 #include "engine/simulator/exposure_clock.h"
-#include "engine/simulator/scene_renderer.h"
+#include "engine/simulator/simulated_view.h"
 #include "engine/simulator/world.h"
 
 namespace helical {
@@ -29,9 +28,8 @@ class SimulatedCamera final : public CameraSource {
   CameraId camera_;
   std::shared_ptr<World> world_;
   std::shared_ptr<Clock> clock_;
-  CameraDisturbances disturbances_;
   ExposureClock exposures_;
-  SceneRenderer renderer_;
+  SimulatedView view_;
   ImageView image_;
   int background_frames_;  ///< still to come, before the helicopter may be put on the pad
   bool exposed_ = false;   ///< `image_` shows the next frame

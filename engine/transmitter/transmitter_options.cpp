@@ -4,6 +4,10 @@
 
 namespace helical {
 
+std::array<std::string_view, 4> transmitterKinds() {
+  return {"simulated", "output-process", "loopback", "none"};
+}
+
 void validate(const TransmitterOptions& options) {
   validate(options.guard);
   if (!(options.rate_hz >= 50.0 && options.rate_hz <= 500.0))

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "engine/transmitter/output_guard.h"
 
@@ -8,11 +10,17 @@ namespace helical {
 
 /// The transmitter that a rig names.
 struct TransmitterOptions {
-  std::string kind = "simulated";  ///< or "loopback": the simulated one behind the output process
-  std::string device;      ///< of the loopback: the file that it writes its output down in, or nothing
+  /// "simulated"; "output-process": the simulated one behind the output process; "loopback": the helicopter
+  /// of `helical serve`; "none": a rig that only looks on.
+  std::string kind = "simulated";
+  std::string device;  ///< of the output process: the file that it writes its output down in, or nothing
+  std::string address = "127.0.0.1:5391";  ///< of the loopback: where `helical serve` listens
   double rate_hz = 100.0;  ///< of the output process
   OutputGuardOptions guard;
 };
+
+/// What `kind` may be.
+std::array<std::string_view, 4> transmitterKinds();
 
 /// Throws Error(kInput) naming the offending key.
 void validate(const TransmitterOptions& options);

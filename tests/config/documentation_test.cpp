@@ -51,6 +51,7 @@ TEST(Documentation, ExplainsEveryKeyOfARig) {
   check("`[camera.pose]`", replaced(goodRig(), "[camera.pose]", "[camera.pose]\n" + kUnknown));
   check("`[markers]`", replaced(goodRig(), "[markers]", "[markers]\n" + kUnknown));
   check("`[simulation]`", replaced(goodRig(), "[simulation]", "[simulation]\n" + kUnknown));
+  check("`[camera.device]`", replaced(goodRig(), "[camera.pose]", "[camera.device]\n" + kUnknown + "[camera.pose]"));
   for (const std::string table : {"[helicopter]", "[helicopter.parameters]", "[helicopter.parameters.upper]",
                                   "[tracking]", "[calibration]", "[flight]", "[safety]", "[transmitter]",
                                   "[simulation.noise]", "[[simulation.camera]]"})

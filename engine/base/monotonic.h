@@ -1,0 +1,13 @@
+#pragma once
+
+#include "engine/base/time.h"
+
+namespace helical {
+
+/// CLOCK_MONOTONIC as the machine has it, not counted from anything of ours: what devices' threads stamp with, and
+/// what processes on one machine share.
+TimeNs monotonicNow();
+/// Returns at `time` or later; at once if it has passed.
+void sleepUntilMonotonic(TimeNs time);
+
+}  // namespace helical

@@ -1,0 +1,89 @@
+#include "engine/pipeline/rig_devices.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/cameras/aravis/aravis_camera.h"
+#include "engine/simulator/loopback_link.h"
+#include "engine/simulator/simulated_transmitter.h"
+#include "engine/transmitter/output_process.h"
+
+namespace helical {
+namespace {
+
+constexpr std::string_view kAravis = "aravis:";
+
+/// For rigs that only look on.
+class NoTransmitter final : public Transmitter {
+ public:
+  void send(const StickDemand& /*demand*/, TimeNs /*now*/) override {}
+};
+
+template <std::size_t N>
+void copyText(const std::string& from, std::array<char, N>& to, const std::string& where) {
+  if (from.size() >= N)
+    throw Error(ErrorKind::kInput, "'" + from + "' is too long for the output process", where,
+                "give a shorter one");
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+/// The simulated transmitter behind a real output process: what that puts out is what the helicopter gets.
+class ProcessTransmitter final : public Transmitter {
+ public:
+  ProcessTransmitter(const OutputSettings& settings, std::unique_ptr<Transmitter> to_helicopter)
+      : process_(settings, OutputProcess::findProgram()), to_helicopter_(std::move(to_helicopter)) {}
+
+  void send(const StickDemand& demand, TimeNs now) override {
+    process_.send(demand, now);
+    to_helicopter_->send(process_.status().present ? process_.report().output : StickDemand{}, now);
+  }
+  TransmitterStatus status() const override { return process_.status(); }
+
+ private:
+  OutputProcess process_;
+  std::unique_ptr<Transmitter> to_helicopter_;
+};
+
+std::unique_ptr<Transmitter> openOutputProcess(const RigConfig& rig, const std::shared_ptr<World>& world) {
+  OutputSettings settings;
+  copyText("loopback", settings.device, rig.path);
+  copyText(rig.transmitter.device, settings.address, rig.path);
+  settings.rate_hz = rig.transmitter.rate_hz;
+  settings.guard = rig.transmitter.guard;
+  return std::make_unique<ProcessTransmitter>(settings,
+                                              std::make_unique<SimulatedTransmitter>(rig.simulation, world));
+}
+
+}  // namespace
+
+bool needsRealTime(const RigConfig& rig) {
+  return rig.transmitter.kind == "loopback" || rig.transmitter.kind == "output-process" ||
+         std::any_of(rig.cameras.begin(), rig.cameras.end(), [](const auto& camera) {
+           return !camera.source.empty() && camera.source != "sim";
+         });
+}
+
+std::unique_ptr<CameraSource> openDevice(const RigConfig& rig, CameraId id, std::shared_ptr<Clock> clock,
+                                         std::shared_ptr<CameraLink> link) {
+  const CameraConfig& camera = rig.cameras[static_cast<std::size_t>(id.index())];
+  if (camera.source.starts_with(kAravis))
+    return std::make_unique<AravisCamera>(id, camera.source.substr(kAravis.size()), camera.device,
+                                          camera.model.width(), camera.model.height(), std::move(clock),
+                                          std::move(link));
+  throw Error(ErrorKind::kInput, "camera " + camera.label + " has no source to fly with", rig.path,
+              "give it source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
+}
+
+std::unique_ptr<Transmitter> openTransmitter(const RigConfig& rig, const std::shared_ptr<World>& world) {
+  const std::string& kind = rig.transmitter.kind;
+  if (kind == "loopback") return std::make_unique<LoopbackTransmitter>(rig.transmitter.address);
+  if (kind == "simulated" && world) return std::make_unique<SimulatedTransmitter>(rig.simulation, world);
+  if (kind == "output-process" && world) return openOutputProcess(rig, world);
+  return std::make_unique<NoTransmitter>();
+}
+
+}  // namespace helical

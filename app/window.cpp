@@ -14,12 +14,14 @@
 
 #include "app/mending_offer.h"
 #include "engine/base/error.h"
+#include "engine/config/resource_files.h"
 #include "engine/config/text_file.h"
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/first_guess.h"
 #include "engine/session/recorder.h"
 #include "engine/session/session_folder.h"
+#include "ui/catalogue.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
 
@@ -111,6 +113,9 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
   QApplication application(argc, argv);
   QApplication::setApplicationName(QStringLiteral("helical"));
   QApplication::setApplicationDisplayName(QStringLiteral("Helical Ground Control"));
+  Catalogue catalogue;
+  const QString folder = QString::fromStdString((resourceFolder() / "translations").string());
+  if (catalogue.loadFor(QLocale::system().uiLanguages(), folder)) QApplication::installTranslator(&catalogue);
   theme::apply(application);
 
   WindowOptions options;

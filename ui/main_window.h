@@ -4,27 +4,33 @@
 #include <QMainWindow>
 #include <QTimer>
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "engine/pipeline/engine.h"
+#include "ui/dock_layouts.h"
 #include "ui/orbit_view.h"
 
-class QAction;
 class QActionGroup;
 class QLabel;
-class QMenu;
 
 namespace helical {
 
 class AlarmBar;
+class AttitudeIndicator;
 class CalibrationPanel;
 class CameraWall;
-class EventList;
+class ColourTool;
+class EngineOrders;
+class EventPanel;
 class FlightPanel;
+class MainMenus;
 class PanelTitle;
+class PlanEditor;
 class PlotDeck;
 class SceneView;
 class TopBar;
+class TuningEditor;
 
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
@@ -49,6 +55,7 @@ class MainWindow : public QMainWindow {
   void fitToScreen();
   /// The panels as they were when the window was last closed; false if there is nothing to go by.
   bool restoreLayout();
+  void arrange(DockLayouts::Layout layout);
 
   /// From the start of the process to the first camera picture on the screen.
   std::optional<TimeNs> firstImageNs() const { return first_image_; }
@@ -58,49 +65,40 @@ class MainWindow : public QMainWindow {
   PlotDeck& plots() const { return *plots_; }
   CalibrationPanel& calibration() const { return *calibration_; }
   AlarmBar& alarms() const { return *alarms_; }
-  EventList& events() const { return *events_; }
+  EventPanel& events() const { return *events_; }
+  ColourTool& colourTool() const { return *colour_tool_; }
+  PlanEditor& plan() const { return *plan_; }
+  TuningEditor& gains() const { return *gains_; }
+  AttitudeIndicator& attitude() const { return *attitude_; }
   TopBar& topBar() const { return *top_bar_; }
 
  Q_SIGNALS:
   void firstImage(qint64 since_process_start_ns);
-
- public Q_SLOTS:
-  void takeOff();
-  void land();
-  void stop();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  void saveLayout() const;
   void buildPanels();
+  void buildFlightPanels();
+  void connectCameras();
   QDockWidget* addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area);
   void buildSceneTitle(PanelTitle& title);
   void buildMenus();
-  void buildFlightMenu();
-  void buildCameraMenu();
-  void buildDisturbMenu();
-  void buildViewMenu();
-  void buildHelpMenu();
   void buildStatusBar();
-  void arrangeDocks();
-  void showKeys();
-  void showAbout();
-  void toggleFullScreen(bool full);
 
   void tick();
   void fetchTicks();
   void fetchPictures();
   void fetchCalibrations();
-  void chooseMethod(const QString& method);
   void showNumbers(const EngineSnapshot& snapshot);
   void showLoad();
   void noteFirstImage();
 
   const RigConfig rig_;
   const WindowOptions options_;
+  EngineOrders* const orders_;
   Engine* engine_ = nullptr;
   QTimer timer_;
   QElapsedTimer since_load_;
@@ -117,17 +115,16 @@ class MainWindow : public QMainWindow {
   PlotDeck* plots_;
   CalibrationPanel* calibration_;
   FlightPanel* flight_;
-  EventList* events_;
-  QDockWidget* cameras_dock_;
-  QDockWidget* plots_dock_;
-  QDockWidget* flight_dock_;
-  QDockWidget* calibration_dock_;
-  QDockWidget* events_dock_;
+  EventPanel* events_;
+  AttitudeIndicator* attitude_;
+  PlanEditor* plan_;
+  TuningEditor* gains_;
+  DockLayouts::Docks docks_{};
+  std::unique_ptr<DockLayouts> layouts_;
+  MainMenus* menus_;
+  ColourTool* colour_tool_;
   PanelTitle* scene_title_;
   QActionGroup* viewpoints_;
-  QAction* take_off_action_;
-  QAction* land_action_;
-  std::vector<QAction*> hide_actions_;
   QLabel* newest_event_;
   QLabel* load_;
 };

@@ -40,13 +40,20 @@ constexpr double kOldPad = 0.05;          // s: a fresher pose measures the pad'
 
 Autopilot::Autopilot(const FlightPlan& plan, const ControllerOptions& control,
                      const SupervisorOptions& safety, const HelicopterParameters& nominal)
-    : plan_(plan),
-      control_(control),
+    : control_(control),
       safety_options_(safety),
       controller_(control, nominal),
       follower_(plan),
       standing_height_(nominal.standing_height),
       pad_height_(nominal.standing_height) {}
+
+void Autopilot::setControl(const ControllerOptions& control) {
+  const ControllerOptions before = control_;
+  control_ = control;
+  control_.rate_hz = before.rate_hz;
+  control_.output_delay_s = before.output_delay_s;
+  controller_.setOptions(control_);
+}
 
 double Autopilot::flightTime(TimeNs now) const {
   return phase_ == FlightPhase::kIdle ? 0.0 : toSeconds(now - started_);
@@ -126,10 +133,11 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
       }
       return;
     case FlightPhase::kFlying: {
-      const bool time_to_land = plan_.land_at_s > 0.0 && flightTime(input.now) >= plan_.land_at_s;
+      const bool time_to_land =
+          follower_.plan().land_at_s > 0.0 && flightTime(input.now) >= follower_.plan().land_at_s;
       const bool ordered = input.commands.land || supervisor_.state == SafetyState::kLandNow;
       if (ordered) follower_.resetTo(input.state.world_from_body.translation);
-      if (time_to_land || ordered || (plan_.land_at_s <= 0.0 && follower_.finished()))
+      if (time_to_land || ordered || (follower_.plan().land_at_s <= 0.0 && follower_.finished()))
         enter(FlightPhase::kLanding, input.now);
       return;
     }
@@ -164,7 +172,7 @@ void Autopilot::awaitStart(const AutopilotInput& input) {
     pad_height_ = input.state.world_from_body.translation.z();
   }
   if (!take_off_pending_) return;
-  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < plan_.start_delay_s) {
+  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < follower_.plan().start_delay_s) {
     // An order that waited long must not start the rotors of a helicopter that somebody is just carrying
     // back.
     if (obstacle == nullptr || toSeconds(input.now - ordered_at_) < kOrderLasts) return;

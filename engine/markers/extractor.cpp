@@ -52,11 +52,12 @@ void Extractor::Workspace::resize(const ImageView& image) {
   height = image.height;
   format = image.format;
   finder.resize(grid.width, grid.height);
-  classes.clear();
-  if (grid.layout == CellLayout::kBytes) return;
-  for (const ColourRange& colour : colours)
-    classes.push_back(
-        ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
+  std::vector<std::shared_ptr<const ColourClass>> prepared;
+  if (grid.layout != CellLayout::kBytes)
+    for (const ColourRange& colour : colours)
+      prepared.push_back(
+          ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
+  classes = std::move(prepared);  // not before: extractors that share tables keep them while one changes
 }
 
 CellRule Extractor::Workspace::ruleOf(std::size_t colour) const {
@@ -106,6 +107,15 @@ void Extractor::disableBackground() {
 }
 bool Extractor::hasBackground() const {
   return workspace_->background.state() == BackgroundModel::State::kReady;
+}
+ImageView Extractor::background() const {
+  return workspace_->background.view();
+}
+
+void Extractor::setColour(const ColourRange& colour) {
+  static_cast<ColourRange&>(workspace_->options) = colour;
+  workspace_->colours.front() = colour;
+  workspace_->format.reset();  // the next frame prepares anew
 }
 
 void Extractor::extract(const ImageView& image, Observation& observation) {

@@ -27,6 +27,12 @@ class Extractor {
   /// Works without background difference: colour alone.
   void disableBackground();
   bool hasBackground() const;
+  /// The averaged or given background, rows packed; only while there is one.
+  ImageView background() const;
+
+  /// Looks for markers of this colour from the next frame on. Prepares tables unless somebody holds those of
+  /// this range already, which takes some 100 ms.
+  void setColour(const ColourRange& colour);
 
   /// Fills `observation`'s centroids, count, truncated and extraction time; largest regions first.
   void extract(const ImageView& image, Observation& observation);

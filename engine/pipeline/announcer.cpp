@@ -82,6 +82,7 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   announceRecord(now, raise);
   if (now.gust_ordered && !gust_blew_) raise(event(now.time, Severity::kInfo, "A gust"));
   gust_blew_ = now.gust_ordered;
+  announceChanges(now, raise);
   if (now.phase != phase_) raise(event(now.time, Severity::kInfo, phaseText(now.phase)));
   if (now.safety != safety_) {
     const SafetyText text = safetyText(now.safety);
@@ -103,6 +104,18 @@ void Announcer::announceRecord(const EngineSnapshot& now, const Sink& raise) {
   record_ = now.record;
 }
 
+void Announcer::announceChanges(const EngineSnapshot& now, const Sink& raise) {
+  const Changes changes{now.plans, now.controls, now.colours, now.cameras[0].backgrounds};
+  const auto raise_if = [&](bool changed, const char* text) {
+    if (changed) raise(event(now.time, Severity::kInfo, text));
+  };
+  raise_if(changes.plans != changes_.plans, "The plan is changed");
+  raise_if(changes.controls != changes_.controls, "Gains and trims are changed");
+  raise_if(changes.colours != changes_.colours, "The markers' colour is changed");
+  raise_if(changes.backgrounds != changes_.backgrounds, "The cameras take a new background");
+  changes_ = changes;
+}
+
 void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise) {
   const CameraSnapshot& state = now.cameras[camera];
   Camera& before = cameras_[camera];
@@ -113,6 +126,10 @@ void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, co
   raise_if(!state.hidden && before.hidden, Severity::kInfo, "shown again");
   raise_if(state.boards > before.boards, Severity::kCaution, "a white board is held before it");
   raise_if(state.boards < before.boards, Severity::kInfo, "a white board is taken away");
+  raise_if(state.lost_share > before.lost_share, Severity::kCaution, "loses frames by order");
+  raise_if(state.lost_share < before.lost_share, Severity::kInfo, "loses fewer frames by order");
+  raise_if(state.noise > before.noise, Severity::kCaution, "gets noise by order");
+  raise_if(state.noise < before.noise, Severity::kInfo, "gets less noise by order");
   raise_if(state.knocks != before.knocks, Severity::kCaution, "knocked by the operator");
   const CameraStatus status = state.estimate.status;
   if (status != before.status && now.tick > 1) {
@@ -121,7 +138,7 @@ void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, co
     raise_if(status == CameraStatus::kCalibrating && before.status == CameraStatus::kCalibrated,
              Severity::kCaution, "out of the control set, calibrating");
   }
-  before = {status, state.hidden, state.boards, state.knocks};
+  before = {status, state.hidden, state.boards, state.knocks, state.lost_share, state.noise};
 }
 
 }  // namespace helical

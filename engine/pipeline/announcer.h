@@ -33,8 +33,17 @@ class Announcer {
     bool hidden = false;
     int boards = 0;
     std::uint32_t knocks = 0;
+    double lost_share = 0.0;
+    double noise = 0.0;
   };
   void announceRecord(const EngineSnapshot& now, const Sink& raise);
+  struct Changes {
+    std::uint32_t plans = 0;
+    std::uint32_t controls = 0;
+    std::uint32_t colours = 0;
+    std::uint32_t backgrounds = 0;
+  };
+  void announceChanges(const EngineSnapshot& now, const Sink& raise);
   void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
 
   std::vector<std::string> names_;
@@ -45,6 +54,7 @@ class Announcer {
   bool gust_blew_ = false;
   RecordHealth record_;
   std::array<Camera, kMaxCameras> cameras_{};
+  Changes changes_;
 };
 
 }  // namespace helical

@@ -26,6 +26,8 @@ class LockStep {
   void hideCamera(CameraId camera, bool hidden);
   /// Begins a camera's calibration anew; one without a pose or a guess has nothing to begin from.
   void calibrate(CameraId camera, const std::string& method, std::uint64_t seed);
+  /// Before the next tick. Throws Error(kInput) and changes nothing if `validate` refuses.
+  void change(const FlightChange& change);
 
  private:
   void use(const Observation& observation);

@@ -46,15 +46,17 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
                   "give it source = \"sim\"");
     const CameraId id = cameraId(static_cast<int>(i));
     const RigidTransform truth = trueCameraFromWorld(rig, id);
-    hardware.boards.push_back(std::make_shared<WhiteBoardsChannel>());
+    hardware.tampering.push_back(std::make_shared<TamperingChannel>());
+    hardware.extraction.push_back(std::make_shared<ExtractionChannel>());
     hardware.disturbances.emplace_back(id, rig.simulation, truth,
                                        randomStream(rig.simulation.seed, RandomStream::kKnocks, id));
     if (rig.simulation.images) {
       auto source = std::make_unique<SimulatedCamera>(id, camera.model, truth, rig.markers_in_body,
                                                       rig.marker_options.background_frames, rig.simulation,
                                                       hardware.world, clock);
-      auto boarded = std::make_unique<BoardedCamera>(std::move(source), hardware.boards.back());
-      auto extracted = std::make_unique<ExtractingSource>(std::move(boarded), rig.marker_options, tap);
+      auto tampered = std::make_unique<TamperedCamera>(std::move(source), hardware.tampering.back());
+      auto extracted = std::make_unique<ExtractingSource>(std::move(tampered), rig.marker_options, tap,
+                                                          hardware.extraction.back());
       hardware.sources.push_back(
           std::make_unique<DisturbedSource>(std::move(extracted), camera.model, rig.simulation));
     } else {
@@ -62,7 +64,7 @@ RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
           std::make_unique<SimulatedObserver>(id, camera.model, truth, rig.markers_in_body,
                                               rig.marker_options, rig.simulation, hardware.world, clock);
       hardware.sources.push_back(
-          std::make_unique<BoardedObserver>(std::move(source), hardware.boards.back()));
+          std::make_unique<TamperedObserver>(std::move(source), hardware.tampering.back()));
     }
   }
   hardware.transmitter = std::make_unique<SimulatedTransmitter>(rig.simulation, hardware.world);

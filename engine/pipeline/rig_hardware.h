@@ -8,8 +8,8 @@
 #include "engine/base/clock.h"
 #include "engine/config/rig_config.h"
 #include "engine/markers/extracting_source.h"
-#include "engine/pipeline/boarded_sources.h"
 #include "engine/pipeline/snapshot.h"
+#include "engine/pipeline/tampered_sources.h"
 #include "engine/simulator/disturbances.h"
 #include "engine/simulator/world.h"
 #include "engine/transmitter/transmitter.h"
@@ -23,8 +23,9 @@ struct RigHardware {
   std::vector<std::unique_ptr<ObservationSource>> sources;
   std::unique_ptr<Transmitter> transmitter;
   std::shared_ptr<World> world;
-  std::vector<std::shared_ptr<WhiteBoardsChannel>> boards;  ///< one per camera
-  std::vector<CameraDisturbances> disturbances;             ///< of simulated cameras: where they truly are
+  std::vector<std::shared_ptr<TamperingChannel>> tampering;    ///< one per camera
+  std::vector<std::shared_ptr<ExtractionChannel>> extraction;  ///< one per camera
+  std::vector<CameraDisturbances> disturbances;                ///< of simulated cameras: where they truly are
 
   /// Adds the truth of a simulated rig to a snapshot taken at `now`; leaves that of a real one alone.
   void addTruth(EngineSnapshot& snapshot, TimeNs now) const;

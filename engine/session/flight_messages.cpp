@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "engine/session/flight_change_text.h"
 #include "engine/session/image_codec.h"
 
 namespace helical {
@@ -312,6 +313,16 @@ void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationBegun& be
   out.put(static_cast<std::int32_t>(begun.camera.index()));
   out.putText(begun.method);
   out.put(begun.seed);
+}
+
+void encodeOrder(CdrWriter& out, std::uint64_t order, const FlightChanged& changed) {
+  begin(out, changed.time, kWorldFrame);
+  out.put(order);
+  out.put(changed.time);
+  out.putText("change");
+  out.put(std::int32_t{0});
+  out.putText(textOf(*changed.change));
+  out.put(std::uint64_t{0});
 }
 
 void encodeEvent(CdrWriter& out, const EngineEvent& event) {

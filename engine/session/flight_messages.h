@@ -43,6 +43,7 @@ void encodeJpeg(CdrWriter& out, const RecordedFrame& image, const std::string& f
 void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& tick);
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CameraHidden& hidden);
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationBegun& begun);
+void encodeOrder(CdrWriter& out, std::uint64_t order, const FlightChanged& changed);
 void encodeEvent(CdrWriter& out, const EngineEvent& event);
 
 /// One frame's place in the world.
@@ -91,9 +92,9 @@ EngineEvent decodeEvent(std::string_view payload);
 struct DecodedOrder {
   std::uint64_t order = 0;
   TimeNs time = 0;
-  std::string kind;  ///< "hide", "show", "calibrate"
+  std::string kind;  ///< "hide", "show", "calibrate", "change"
   int camera = 0;
-  std::string method;
+  std::string method;  ///< of "change": see flight_change_text
   std::uint64_t seed = 0;
 };
 DecodedOrder decodeOrder(std::string_view payload);

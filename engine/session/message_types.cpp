@@ -104,9 +104,9 @@ constexpr Definition kDefinitions[] = {
      "std_msgs/Header header\n"
      "uint64 order            # of what reached the flight thread\n"
      "int64 time_ns\n"
-     "string kind             # hide, show, calibrate\n"
+     "string kind             # hide, show, calibrate, change\n"
      "int32 camera            # counted from 0\n"
-     "string method\nuint64 seed\n"},
+     "string method           # of a change: its values as JSON\nuint64 seed\n"},
 };
 
 constexpr std::string_view kNames[kMessageKinds] = {

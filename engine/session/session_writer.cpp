@@ -131,6 +131,11 @@ void SessionWriter::write(std::uint64_t order, const CalibrationBegun& begun) {
   send(orders_, begun.time);
 }
 
+void SessionWriter::write(std::uint64_t order, const FlightChanged& changed) {
+  encodeOrder(out_, order, changed);
+  send(orders_, changed.time);
+}
+
 void SessionWriter::write(std::uint64_t order, const FlightTick& tick) {
   const EngineSnapshot& state = tick.state;
   if (state.pose_known) {

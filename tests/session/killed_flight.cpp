@@ -37,6 +37,9 @@ class Witness final : public FlightTap {
   void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) override {
     recorder_.onCalibration(camera, method, seed, now);
   }
+  void onChange(const std::shared_ptr<const FlightChange>& change, TimeNs now) override {
+    recorder_.onChange(change, now);
+  }
   void onEvent(const EngineEvent& event) override { recorder_.onEvent(event); }
   void onBelief(CameraId camera, const CalibrationView& belief, TimeNs now) override {
     recorder_.onBelief(camera, belief, now);

@@ -15,6 +15,7 @@
 #include "app/mending_offer.h"
 #include "app/session_windows.h"
 #include "engine/base/error.h"
+#include "engine/config/resource_files.h"
 #include "engine/config/text_file.h"
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/engine.h"
@@ -22,6 +23,7 @@
 #include "engine/session/flight_playback.h"
 #include "engine/session/recorder.h"
 #include "engine/session/session_folder.h"
+#include "ui/catalogue.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
 
@@ -79,9 +81,12 @@ void prepareDisplay() {
   keepSoftwareRendererModest();
 }
 
-void dress(QApplication& application) {
+/// `catalogue` must live as long as the window.
+void dress(QApplication& application, Catalogue& catalogue) {
   QApplication::setApplicationName(QStringLiteral("helical"));
   QApplication::setApplicationDisplayName(QStringLiteral("Helical Ground Control"));
+  const QString folder = QString::fromStdString((resourceFolder() / "translations").string());
+  if (catalogue.loadFor(QLocale::system().uiLanguages(), folder)) QApplication::installTranslator(&catalogue);
   theme::apply(application);
 }
 
@@ -123,7 +128,8 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
     return engine;
   });
   QApplication application(argc, argv);
-  dress(application);
+  Catalogue catalogue;
+  dress(application, catalogue);
   WindowOptions options;
   options.auto_take_off = flight.demonstration;
   options.session_folder = QString::fromStdString(sessionFolder().string());
@@ -147,7 +153,8 @@ int runSessionWindow(int argc, char** argv, const std::string& session) {
   FlightPlayback{session};  // says what is wrong with it before a display is asked for
   prepareDisplay();
   QApplication application(argc, argv);
-  dress(application);
+  Catalogue catalogue;
+  dress(application, catalogue);
   SessionWindows sessions;
   sessions.open(session);
   return QApplication::exec();

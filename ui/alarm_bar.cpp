@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/geometry/rotation.h"
+#include "ui/catalogue.h"
 #include "ui/format.h"
 #include "ui/theme.h"
 
@@ -38,13 +39,13 @@ AlarmBar::AlarmBar(QWidget* parent) : QWidget(parent), button_(new QPushButton(t
 
 void AlarmBar::add(const EngineEvent& event) {
   if (event.severity != Severity::kDanger) return;
-  const QString text = QString::fromUtf8(event.text.data());
+  const QString text = engineText(QString::fromUtf8(event.text.data()));
   const auto last = last_raised_.constFind(text);
   if (last != last_raised_.constEnd() && event.time - *last < kSilence) return;
   last_raised_[text] = event.time;
   alarms_.push_back({event.time, text});
   if (alarms_.size() > kMostAlarms) alarms_.pop_front();
-  QApplication::beep();
+  if (sound_) QApplication::beep();
   show();
   raise();
   update();
@@ -53,6 +54,7 @@ void AlarmBar::add(const EngineEvent& event) {
 void AlarmBar::acknowledge() {
   alarms_.clear();
   hide();
+  Q_EMIT acknowledged();
 }
 
 QString AlarmBar::text() const {

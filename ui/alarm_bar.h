@@ -28,7 +28,13 @@ class AlarmBar : public QWidget {
   /// Takes its place: centred below `top` of the parent.
   void place(int top);
 
+  /// Whether an alarm is heard.
+  void setSound(bool on) { sound_ = on; }
+
   static constexpr TimeNs kSilence = 30 * kNanosecondsPerSecond;
+
+ Q_SIGNALS:
+  void acknowledged();
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -42,6 +48,7 @@ class AlarmBar : public QWidget {
   std::deque<Alarm> alarms_;
   QHash<QString, TimeNs> last_raised_;
   QPushButton* button_;
+  bool sound_ = true;
 };
 
 }  // namespace helical

@@ -13,6 +13,7 @@
 
 #include "engine/geometry/camera_perturbation.h"
 #include "ui/format.h"
+#include "ui/heat_maps.h"
 #include "ui/status_words.h"
 #include "ui/theme.h"
 
@@ -54,6 +55,7 @@ CalibrationPanel::CalibrationPanel(const RigConfig& rig, const std::vector<std::
                                    QWidget* parent)
     : QWidget(parent), methods_(new MethodList) {
   setMinimumWidth(250);
+  setAccessibleName(tr("Calibration"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 8, 14, 8);
   layout->setSpacing(6);
@@ -132,9 +134,17 @@ QWidget* CalibrationPanel::buildRow(const CameraConfig& config, int camera) {
   add(3, tr("Orientation"), row.orientation_sigma, row.orientation_error, tr("deg"));
   add(4, tr("Effective"), row.effective, nullptr, {});
   row.effective->setToolTip(tr("Effective sample size of the particles, of all"));
+  row.maps = new HeatMaps(name, QSize(config.model.width(), config.model.height()));
+  grid->addWidget(row.maps, 5, 0, 1, 4);
+  connect(restart, &QToolButton::clicked, row.maps, &HeatMaps::clear);
   for (int column : {1, 2}) grid->setColumnMinimumWidth(column, 46);
   rows_.push_back(row);
   return box;
+}
+
+void CalibrationPanel::addTick(const EngineSnapshot& tick) {
+  for (const Row& row : rows_)
+    row.maps->add(tick.cameras[static_cast<std::size_t>(row.camera)].track, tick.marker_count);
 }
 
 void CalibrationPanel::setHypotheses(int camera, int total) {
@@ -158,6 +168,7 @@ void CalibrationPanel::showRow(const Row& row, const EngineSnapshot& snapshot) {
     row.position_error->setText(magnitude(1e3 * error.tail<3>().norm()));
     row.orientation_error->setText(magnitude(toDegrees(error.head<3>().norm())));
   }
+  row.maps->update();
   row.effective->setText(
       state.effective_sample_size > 0.0 && row.hypotheses > 0
           ? QStringLiteral("%1/%2").arg(plainNumber(state.effective_sample_size, 0)).arg(row.hypotheses)

@@ -12,6 +12,8 @@ class QLabel;
 
 namespace helical {
 
+class HeatMaps;
+
 /// The cameras that find their place in flight: by which method, how far they are. A choice only asks; shown
 /// is what the engine says.
 class CalibrationPanel : public QWidget {
@@ -21,6 +23,9 @@ class CalibrationPanel : public QWidget {
   CalibrationPanel(const RigConfig& rig, const std::vector<std::string>& methods, QWidget* parent = nullptr);
 
   void show(const EngineSnapshot& snapshot);
+  /// Every control tick: the maps must not miss a frame.
+  void addTick(const EngineSnapshot& tick);
+  const HeatMaps& maps(int camera) const { return *rows_[static_cast<std::size_t>(camera)].maps; }
   /// How many hypotheses a camera's method has; 0 for none.
   void setHypotheses(int camera, int total);
 
@@ -43,6 +48,7 @@ class CalibrationPanel : public QWidget {
     QLabel* orientation_sigma = nullptr;
     QLabel* orientation_error = nullptr;
     QLabel* effective = nullptr;
+    HeatMaps* maps = nullptr;
   };
   QWidget* buildRow(const CameraConfig& config, int camera);
   static void showRow(const Row& row, const EngineSnapshot& snapshot);

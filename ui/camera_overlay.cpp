@@ -12,6 +12,8 @@ namespace helical {
 namespace {
 
 constexpr double kSmallestRing = 7.0;
+constexpr double kTrailSeconds = 1.2;
+constexpr double kLongestGap = 60.0;  // px of the image: farther apart it is not one way
 
 /// Screen position of an image point: pixel (0, 0) is the centre of the first pixel.
 QPointF toScreen(const Eigen::Vector2d& pixel, double scale) {
@@ -113,12 +115,29 @@ bool isNamed(const CameraOverlay& overlay, const Eigen::Vector2d& pixel) {
 
 void paintUnnamedRegions(QPainter& painter, const CameraOverlay& overlay, double scale) {
   if (overlay.observation == nullptr) return;
-  QColor color = theme::kCaution;
+  QColor color = theme::on_dark::kCaution;
   color.setAlpha(190);
   for (int i = 0; i < overlay.observation->count; ++i) {
     const Centroid& centroid = overlay.observation->centroids[static_cast<std::size_t>(i)];
     if (isNamed(overlay, centroid.pixel)) continue;
     paintRing(painter, toScreen(centroid.pixel, scale), std::max(5.0, centroid.radius_px * scale + 2), color);
+  }
+}
+
+/// Fades with age.
+void paintTrails(QPainter& painter, const CameraOverlay& overlay, double scale) {
+  const TimeNs now = overlay.track->exposure;
+  for (int i = 0; i < overlay.marker_count; ++i) {
+    const MarkerTrack* before = nullptr;
+    overlay.history->forTrail(now, kTrailSeconds, [&](const CameraTrack& track) {
+      const MarkerTrack& marker = track.markers[static_cast<std::size_t>(i)];
+      if (marker.observed && before != nullptr && (marker.pixel - before->pixel).norm() < kLongestGap) {
+        const double age = toSeconds(now - track.exposure) / kTrailSeconds;
+        painter.setPen(QPen(QColor(255, 255, 255, static_cast<int>(150 * (1.0 - age))), 1.2));
+        painter.drawLine(toScreen(before->pixel, scale), toScreen(marker.pixel, scale));
+      }
+      before = marker.observed ? &marker : nullptr;
+    });
   }
 }
 
@@ -128,13 +147,14 @@ void paintOverlay(QPainter& painter, const CameraOverlay& overlay, double scale)
   painter.setRenderHint(QPainter::Antialiasing);
   paintUnnamedRegions(painter, overlay, scale);
   if (overlay.track == nullptr) return;
+  if (overlay.history != nullptr) paintTrails(painter, overlay, scale);
   const QPointF middle = middleOfMarkers(overlay, scale);
   for (int i = 0; i < overlay.marker_count; ++i) {
     const MarkerTrack& marker = overlay.track->markers[static_cast<std::size_t>(i)];
     if (marker.observed) {
       const Centroid* centroid = centroidAt(overlay.observation, marker.pixel);
       const double radius = std::max(kSmallestRing, (centroid ? centroid->radius_px : 0.0) * scale + 3.0);
-      const QColor color = marker.selected ? theme::kHealthy : theme::kCaution;
+      const QColor color = marker.selected ? theme::on_dark::kHealthy : theme::on_dark::kCaution;
       const QPointF center = toScreen(marker.pixel, scale);
       paintRing(painter, center, radius, color);
       if (centroid) paintEllipse(painter, center, centroid->covariance, scale * overlay.magnification, color);

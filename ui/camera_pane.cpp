@@ -1,13 +1,12 @@
 #include "ui/camera_pane.h"
 
-#include <QAction>
 #include <QContextMenuEvent>
 #include <QMenu>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <array>
 #include <cmath>
 
+#include "ui/camera_tools.h"
 #include "ui/camera_view.h"
 #include "ui/format.h"
 #include "ui/panel_title.h"
@@ -17,34 +16,37 @@
 namespace helical {
 namespace {
 
-constexpr int kRoomForBoard = 270;  // px of a pane's title
-
-struct KnockChoice {
-  const char* text;
-  double angle_deg;
-  double distance_m;
-};
-constexpr std::array<KnockChoice, 2> kKnocks{
-    {{QT_TRANSLATE_NOOP("CameraPane", "Knock lightly (2 deg, 2 cm)"), 2.0, 0.02},
-     {QT_TRANSLATE_NOOP("CameraPane", "Knock hard (10 deg, 20 cm)"), 10.0, 0.20}}};
+// px of a pane's title
+constexpr int kRoomForBoard = 330;
+constexpr int kRoomForTools = 270;
 
 }  // namespace
 
-CameraPane::CameraPane(CameraId camera, const CameraConfig& config, int marker_count, QWidget* parent)
-    : QWidget(parent),
-      camera_(camera),
-      name_(QString::fromStdString(config.name)),
-      title_(new PanelTitle(name_, theme::cameraColor(camera.index()), this)),
-      focal_length_px_(config.model.fx()) {
+CameraPane::CameraPane(CameraId camera, const RigConfig& rig, QWidget* parent)
+    : QWidget(parent), camera_(camera) {
+  const CameraConfig& config = rig.cameras[static_cast<std::size_t>(camera.index())];
+  name_ = QString::fromStdString(config.name);
+  title_ = new PanelTitle(name_, theme::cameraColor(camera.index()), this);
+  focal_length_px_ = config.model.fx();
+  buildTools(config, config.source != "sim" || rig.simulation.images);
   board_button_ = addButton(tr("Board"));
   board_button_->setCheckable(true);
   board_button_->setToolTip(
       tr("Then drag over the picture: a white board covers that part of it. Drag the board "
          "to move it, click its cross to take it away."));
   board_button_->setAccessibleName(tr("White board before %1").arg(name_));
+  tools_button_ = addButton(tr("Tools"));
+  tools_button_->setMenu(tools_);
+  tools_button_->setPopupMode(QToolButton::InstantPopup);
+  tools_button_->setToolTip(tr("Boards, lost frames, noise, knocks; masks, trails, colour of the markers"));
+  tools_button_->setAccessibleName(tr("Tools of %1").arg(name_));
   button_ = addButton({});
-  view_ = new CameraView(theme::cameraColor(camera.index()),
-                         QSize(config.model.width(), config.model.height()), marker_count);
+  view_ = new CameraView(theme::on_dark::cameraColor(camera.index()),
+                         QSize(config.model.width(), config.model.height()), rig.markers_in_body.count());
+  PictureMasks masks;
+  masks.range = rig.marker_options;
+  masks.background_threshold = rig.marker_options.background_threshold;
+  view_->setMasks(masks);
   view_->setAccessibleName(tr("Picture of %1").arg(name_));
 
   auto* layout = new QVBoxLayout(this);
@@ -62,7 +64,7 @@ CameraPane::CameraPane(CameraId camera, const CameraConfig& config, int marker_c
   connect(view_, &CameraView::boardsChanged, this,
           [this](const WhiteBoards& boards) { Q_EMIT boardsChanged(camera_, boards); });
   connect(view_, &CameraView::firstImagePainted, this, &CameraPane::firstImagePainted);
-  buildDisturbances(config.source == "sim");
+  connectTools();
   setHidden(false);
 }
 
@@ -77,37 +79,49 @@ QToolButton* CameraPane::addButton(const QString& text) {
   return button;
 }
 
-void CameraPane::buildDisturbances(bool simulated) {
-  const auto add = [this](const QString& text, const auto& act) {
-    auto* action = new QAction(text, this);
-    connect(action, &QAction::triggered, this, act);
-    disturbances_.push_back(action);
-  };
-  add(tr("Draw a white board"), [this] { view_->setBoardTool(BoardEditor::Tool::kRectangle); });
-  add(tr("Draw a white board by free hand"), [this] { view_->setBoardTool(BoardEditor::Tool::kFreeHand); });
-  add(tr("Take all boards away"), [this] { view_->clearBoards(); });
-  if (!simulated) return;
-  for (const auto& [text, angle_deg, distance_m] : kKnocks)
-    add(tr(text), [this, angle_deg = angle_deg, distance_m = distance_m] {
-      Q_EMIT knockRequested(camera_, angle_deg, distance_m);
-    });
+void CameraPane::buildTools(const CameraConfig& config, bool images) {
+  tools_ = new CameraTools(name_, config.source == "sim", images, this);
+  connect(tools_, &CameraTools::hideRequested, this, [this](bool on) { Q_EMIT hideRequested(camera_, on); });
+  connect(tools_, &CameraTools::lossRequested, this,
+          [this](double share) { Q_EMIT lossRequested(camera_, share); });
+  connect(tools_, &CameraTools::noiseRequested, this,
+          [this](double grey_levels, double px) { Q_EMIT noiseRequested(camera_, grey_levels, px); });
+  connect(tools_, &CameraTools::knockRequested, this, [this](double angle_deg, double distance_m) {
+    Q_EMIT knockRequested(camera_, angle_deg, distance_m);
+  });
+  connect(tools_, &CameraTools::pickRequested, this, &CameraPane::pickRequested);
+}
+
+void CameraPane::connectTools() {
+  connect(tools_, &CameraTools::boardToolChosen, view_, &CameraView::setBoardTool);
+  connect(tools_, &CameraTools::boardsCleared, view_, &CameraView::clearBoards);
+  connect(tools_, &CameraTools::magnificationChosen, view_, &CameraView::setMagnification);
+  connect(tools_, &CameraTools::trailsToggled, view_, &CameraView::setTrailsShown);
+  connect(tools_, &CameraTools::masksToggled, this, [this](bool background, bool colour) {
+    PictureMasks masks = view_->masks();
+    masks.background = background;
+    masks.colour = colour_mask_ = colour;
+    view_->setMasks(masks);
+  });
+  connect(view_, &CameraView::colourPicked, this,
+          [this](const Eigen::Vector2d& pixel) { Q_EMIT colourPicked(camera_, pixel); });
+}
+
+void CameraPane::previewColour(const ColourRange& range, bool picking) {
+  PictureMasks masks = view_->masks();
+  masks.range = range;
+  masks.colour = picking || colour_mask_;
+  view_->setMasks(masks);
+  view_->setPickingColour(picking);
 }
 
 void CameraPane::contextMenuEvent(QContextMenuEvent* event) {
-  QMenu menu;
-  menu.addAction(button_->text() == tr("Show") ? tr("Show %1").arg(name_) : tr("Hide %1").arg(name_), button_,
-                 &QToolButton::click);
-  menu.addSeparator();
-  menu.addActions(disturbances_);
-  menu.addSeparator();
-  QMenu* errors = menu.addMenu(tr("Errors drawn larger"));
-  for (const int times : {1, 10, 50, 200})
-    errors->addAction(tr("%1 times").arg(times), view_, [this, times] { view_->setMagnification(times); });
-  menu.exec(event->globalPos());
+  tools_->popup(event->globalPos());
 }
 
 void CameraPane::resizeEvent(QResizeEvent*) {
   board_button_->setVisible(width() >= kRoomForBoard);
+  tools_button_->setVisible(width() >= kRoomForTools);
 }
 
 void CameraPane::addTrack(const CameraTrack& track) {
@@ -121,6 +135,7 @@ void CameraPane::setPicture(const CameraPicture& picture) {
 void CameraPane::setState(const CameraSnapshot& state, const EngineSnapshot& now) {
   if (state.hidden != hidden_) setHidden(state.hidden);
   setBadge(state);
+  tools_->show(state);
   if (state.frames == 0) {
     title_->setNote(tr("no frames"));
     view_->setCaptions({}, {});

@@ -6,11 +6,11 @@
 #include "engine/pipeline/snapshot.h"
 #include "engine/pipeline/white_board.h"
 
-class QAction;
 class QToolButton;
 
 namespace helical {
 
+class CameraTools;
 class CameraView;
 class PanelTitle;
 
@@ -21,25 +21,33 @@ class CameraPane : public QWidget {
   Q_OBJECT
 
  public:
-  CameraPane(CameraId camera, const CameraConfig& config, int marker_count, QWidget* parent = nullptr);
+  CameraPane(CameraId camera, const RigConfig& rig, QWidget* parent = nullptr);
 
   void addTrack(const CameraTrack& track);
   void setPicture(const CameraPicture& picture);
   /// Texts and badge, for a few times a second.
   void setState(const CameraSnapshot& state, const EngineSnapshot& now);
 
+  /// Shows what a colour range would find; with `picking` a click names a marker.
+  void previewColour(const ColourRange& range, bool picking);
+
   bool cameraHidden() const { return hidden_; }
   QToolButton* hideButton() const { return button_; }
   QToolButton* boardButton() const { return board_button_; }
   CameraView& view() const { return *view_; }
-  /// What can be done to this camera: boards, and in simulation knocks.
-  const QList<QAction*>& disturbances() const { return disturbances_; }
+  CameraTools& tools() const { return *tools_; }
+  QToolButton* toolsButton() const { return tools_button_; }
   const PanelTitle& title() const { return *title_; }
 
  Q_SIGNALS:
   void hideRequested(helical::CameraId camera, bool hidden);
   void boardsChanged(helical::CameraId camera, const helical::WhiteBoards& boards);
   void knockRequested(helical::CameraId camera, double angle_deg, double distance_m);
+  void lossRequested(helical::CameraId camera, double share);
+  void noiseRequested(helical::CameraId camera, double grey_levels, double px);
+  /// Somebody wants to choose the markers' colour, or has clicked one.
+  void pickRequested();
+  void colourPicked(helical::CameraId camera, const Eigen::Vector2d& pixel);
   void firstImagePainted();
 
  protected:
@@ -48,7 +56,8 @@ class CameraPane : public QWidget {
 
  private:
   QToolButton* addButton(const QString& text);
-  void buildDisturbances(bool simulated);
+  void buildTools(const CameraConfig& config, bool images);
+  void connectTools();
   QString residualText(const CameraSnapshot& state, const EngineSnapshot& now) const;
   void setBadge(const CameraSnapshot& state);
   void setHidden(bool hidden);
@@ -58,10 +67,12 @@ class CameraPane : public QWidget {
   PanelTitle* title_;
   QToolButton* button_;
   QToolButton* board_button_;
+  QToolButton* tools_button_;
+  CameraTools* tools_;
   CameraView* view_;
   double focal_length_px_;
-  QList<QAction*> disturbances_;
   bool hidden_ = false;
+  bool colour_mask_ = false;  ///< asked for; the preview of a colour shows it, too
 };
 
 }  // namespace helical

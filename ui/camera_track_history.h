@@ -17,9 +17,18 @@ class CameraTrackHistory {
   /// away.
   const CameraTrack* at(TimeNs exposure) const;
   const CameraTrack* newest() const;
+  /// Calls `with` for the tracks up to `exposure`, oldest first, the last `seconds` of them.
+  template <class With>
+  void forTrail(TimeNs exposure, double seconds, const With& with) const {
+    const std::size_t held = count_ < kLength ? count_ : kLength;
+    for (std::size_t i = count_ - held; i < count_; ++i) {
+      const CameraTrack& track = tracks_[i % kLength];
+      if (track.exposure <= exposure && track.exposure > exposure - fromSeconds(seconds)) with(track);
+    }
+  }
 
  private:
-  static constexpr std::size_t kLength = 32;
+  static constexpr std::size_t kLength = 96;
 
   std::array<CameraTrack, kLength> tracks_{};
   std::size_t count_ = 0;  ///< ever added

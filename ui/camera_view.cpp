@@ -2,22 +2,25 @@
 
 #include <QMouseEvent>
 #include <QPainter>
+#include <QWheelEvent>
 #include <algorithm>
 #include <array>
-#include <opencv2/imgproc.hpp>
+#include <cmath>
 
+#include "ui/board_painter.h"
 #include "ui/camera_overlay.h"
 #include "ui/theme.h"
 
 namespace helical {
 namespace {
 
-constexpr double kHandle = 8.0;  // screen pixels: radius of a board's cross
+constexpr double kZoomPerStep = 1.25;
 
 }  // namespace
 
 CameraView::CameraView(const QColor& identity, QSize sensor, int marker_count, QWidget* parent)
-    : QWidget(parent), identity_(identity), sensor_(sensor), marker_count_(marker_count) {
+    : QWidget(parent), identity_(identity), marker_count_(marker_count) {
+  viewport_.setSensor(sensor);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
 }
@@ -31,21 +34,25 @@ void CameraView::addTrack(const CameraTrack& track) {
 void CameraView::setPicture(const CameraPicture& picture) {
   observation_ = picture.observation;
   observed_ = true;
-  if (!picture.bgr.empty()) scalePicture(picture);
+  if (!picture.bgr.empty()) {
+    viewport_.setSensor(QSize(picture.width, picture.height));
+    scalePicture(picture, viewport_, masks_, devicePixelRatioF(), image_);
+  }
   update();
 }
 
-void CameraView::scalePicture(const CameraPicture& picture) {
-  sensor_ = QSize(picture.width, picture.height);
-  const QSize size = (QSizeF(pictureArea().size()) * devicePixelRatioF()).toSize().expandedTo(QSize(1, 1));
-  if (image_.size() != size) image_ = QImage(size, QImage::Format_RGB32);
-  image_.setDevicePixelRatio(devicePixelRatioF());
-  const cv::Mat bgr(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
-  cv::Mat target(size.height(), size.width(), CV_8UC4, image_.bits(),
-                 static_cast<std::size_t>(image_.bytesPerLine()));
-  cv::Mat scaled;
-  cv::resize(bgr, scaled, target.size(), 0, 0, cv::INTER_LINEAR);
-  cv::cvtColor(scaled, target, cv::COLOR_BGR2BGRA);
+void CameraView::setMasks(const PictureMasks& masks) {
+  masks_ = masks;
+}
+
+void CameraView::setTrailsShown(bool shown) {
+  trails_ = shown;
+  update();
+}
+
+void CameraView::setPickingColour(bool picking) {
+  picking_ = picking;
+  setCursor(picking ? Qt::PointingHandCursor : Qt::ArrowCursor);
 }
 
 void CameraView::setHidden(bool hidden) {
@@ -59,20 +66,8 @@ void CameraView::setMagnification(double magnification) {
   update();
 }
 
-QPointF CameraView::toWidget(const Eigen::Vector2d& pixel) const {
-  const QRect area = pictureArea();
-  const double scale = static_cast<double>(area.width()) / sensor_.width();
-  return area.topLeft() + QPointF((pixel.x() + 0.5) * scale, (pixel.y() + 0.5) * scale);
-}
-
-Eigen::Vector2d CameraView::toImage(const QPointF& position) const {
-  const QRect area = pictureArea();
-  const double scale = static_cast<double>(area.width()) / sensor_.width();
-  return {(position.x() - area.left()) / scale - 0.5, (position.y() - area.top()) / scale - 0.5};
-}
-
 double CameraView::handleReach() const {
-  return kHandle * sensor_.width() / std::max(1, pictureArea().width());
+  return kBoardHandle / viewport_.scale();
 }
 
 void CameraView::setBoardTool(BoardEditor::Tool tool) {
@@ -92,27 +87,66 @@ void CameraView::tellBoards() {
 }
 
 void CameraView::mousePressEvent(QMouseEvent* event) {
-  if (event->button() != Qt::LeftButton || !boards_.press(toImage(event->position()), handleReach()))
-    return QWidget::mousePressEvent(event);
-  tellBoards();
+  const bool left = event->button() == Qt::LeftButton;
+  if (left && picking_) {
+    Q_EMIT colourPicked(toImage(event->position()));
+  } else if (left && boards_.press(toImage(event->position()), handleReach())) {
+    tellBoards();
+  } else if ((left && viewport_.zoomed()) || event->button() == Qt::MiddleButton) {
+    pan_from_ = event->position();
+    setCursor(Qt::ClosedHandCursor);
+  } else {
+    QWidget::mousePressEvent(event);
+  }
 }
 
 void CameraView::mouseMoveEvent(QMouseEvent* event) {
+  if (pan_from_) {
+    viewport_.pan(event->position() - *pan_from_);
+    pan_from_ = event->position();
+    return update();
+  }
   if (event->buttons() & Qt::LeftButton) {
     boards_.move(toImage(event->position()));
     return tellBoards();
   }
-  if (boards_.tool() == BoardEditor::Tool::kNone)
-    setCursor(boards_.wouldGrab(toImage(event->position()), handleReach()) ? Qt::OpenHandCursor
-                                                                           : Qt::ArrowCursor);
+  updateCursor(event->position());
+}
+
+void CameraView::updateCursor(const QPointF& position) {
+  if (boards_.tool() != BoardEditor::Tool::kNone || picking_) return;
+  const bool grabs = boards_.wouldGrab(toImage(position), handleReach()) || viewport_.zoomed();
+  setCursor(grabs ? Qt::OpenHandCursor : Qt::ArrowCursor);
 }
 
 void CameraView::mouseReleaseEvent(QMouseEvent* event) {
+  if (pan_from_) {
+    pan_from_.reset();
+    return updateCursor(event->position());
+  }
   if (event->button() != Qt::LeftButton) return;
   const BoardEditor::Tool before = boards_.tool();
   boards_.release();
   tellBoards();
   if (boards_.tool() != before) setBoardTool(boards_.tool());
+}
+
+void CameraView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (boards_.wouldGrab(toImage(event->position()), handleReach())) return;
+  viewport_.reset();
+  updateCursor(event->position());
+  update();
+}
+
+void CameraView::wheelEvent(QWheelEvent* event) {
+  viewport_.zoomAt(event->position(), std::pow(kZoomPerStep, event->angleDelta().y() / 120.0));
+  updateCursor(event->position());
+  update();
+  event->accept();
+}
+
+void CameraView::resizeEvent(QResizeEvent*) {
+  viewport_.setRoom(size());
 }
 
 void CameraView::setCaptions(const QString& left, const QString& right) {
@@ -122,38 +156,39 @@ void CameraView::setCaptions(const QString& left, const QString& right) {
   update();
 }
 
-QRect CameraView::pictureArea() const {
-  // Whole pixels: the picture is then copied, not resampled, whenever it is painted.
-  const QSize fitted = sensor_.scaled(size(), Qt::KeepAspectRatio);
-  return {QPoint((width() - fitted.width()) / 2, (height() - fitted.height()) / 2), fitted};
-}
-
-void CameraView::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  painter.fillRect(rect(), QColor(7, 9, 12));
-  const QRect area = pictureArea();
-  if (image_.isNull())
-    painter.fillRect(area, QColor(13, 17, 22));
-  else
-    painter.drawImage(area, image_);
-
+void CameraView::paintMarks(QPainter& painter, const QRect& area) const {
   painter.save();
   painter.setClipRect(area);
-  painter.translate(area.topLeft());
+  painter.translate(toWidget({-0.5, -0.5}));
   CameraOverlay overlay;
   overlay.track = observed_ ? history_.at(observation_.exposure) : history_.newest();
   overlay.observation = observed_ ? &observation_ : nullptr;
   overlay.marker_count = marker_count_;
   overlay.magnification = magnification_;
-  paintOverlay(painter, overlay, static_cast<double>(area.width()) / sensor_.width());
+  overlay.history = trails_ ? &history_ : nullptr;
+  paintOverlay(painter, overlay, viewport_.scale());
   painter.restore();
+}
 
+void CameraView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), QColor(7, 9, 12));
+  const QRect area = viewport_.area();
+  if (image_.isNull())
+    painter.fillRect(area, QColor(13, 17, 22));
+  else
+    painter.drawImage(area, image_);
+  paintMarks(painter, area);
+  painter.save();
+  painter.setClipRect(area);
   paintBoards(painter);
+  painter.restore();
   if (hidden_) paintHidden(painter, area);
   paintFrame(painter, area);
   paintCaptions(painter, area);
-  if (!painted_ && !image_.isNull()) {
-    painted_ = true;
+  ++paints_;
+  if (!had_image_ && !image_.isNull()) {
+    had_image_ = true;
     Q_EMIT firstImagePainted();
   }
 }
@@ -184,42 +219,32 @@ void CameraView::paintCaptions(QPainter& painter, const QRectF& area) const {
     painter.drawText(box, Qt::AlignVCenter, text);
   };
   if (!left_caption_.isEmpty()) paint(left_caption_, line.left());
+  if (viewport_.zoomed()) {
+    const QString zoom = tr("%1 x").arg(viewport_.zoom(), 0, 'f', 1);
+    const QRectF corner(area.right() - 14 - metrics.horizontalAdvance(zoom), area.top() + 12,
+                        metrics.horizontalAdvance(zoom), line.height());
+    painter.fillRect(corner.adjusted(-4, 0, 4, 0), QColor(8, 12, 16, 150));
+    painter.drawText(corner, Qt::AlignVCenter, zoom);
+  }
   const int right_width = metrics.horizontalAdvance(right_caption_);
   const bool room = metrics.horizontalAdvance(left_caption_) + 12 + right_width <= line.width();
   if (!right_caption_.isEmpty() && room) paint(right_caption_, line.right() - right_width);
 }
 
-void CameraView::paintBoard(QPainter& painter, const WhiteBoard& board, bool draft) const {
-  QPolygonF outline;
-  for (int i = 0; i < board.count; ++i) outline << toWidget(board.corners[static_cast<std::size_t>(i)]);
-  // The frames show the board themselves; without images nothing else would.
-  const bool fill = draft || image_.isNull();
-  painter.setBrush(fill ? QColor(235, 235, 235, draft ? 90 : 170) : QColor(Qt::transparent));
-  painter.setPen(QPen(theme::kCaution, 1.4, draft ? Qt::DashLine : Qt::SolidLine));
-  painter.drawPolygon(outline);
-  if (draft) return;
-  const QPointF center = toWidget(BoardEditor::handle(board));
-  painter.setPen(QPen(QColor(8, 12, 16), 1));
-  painter.setBrush(theme::kCaution);
-  painter.drawEllipse(center, kHandle - 1.0, kHandle - 1.0);
-  painter.setPen(QPen(QColor(8, 12, 16), 1.6));
-  const double arm = 3.0;
-  painter.drawLine(center + QPointF(-arm, -arm), center + QPointF(arm, arm));
-  painter.drawLine(center + QPointF(-arm, arm), center + QPointF(arm, -arm));
-}
-
 void CameraView::paintBoards(QPainter& painter) const {
   const WhiteBoards& boards = boards_.boards();
+  const auto to_screen = [this](const Eigen::Vector2d& pixel) { return toWidget(pixel); };
   painter.setRenderHint(QPainter::Antialiasing);
+  // The frames show the boards themselves; without images nothing else would.
   for (int i = 0; i < boards.count; ++i)
-    paintBoard(painter, boards.boards[static_cast<std::size_t>(i)], false);
-  if (boards_.draft().count >= 2) paintBoard(painter, boards_.draft(), true);
+    paintBoard(painter, boards.boards[static_cast<std::size_t>(i)], false, image_.isNull(), to_screen);
+  if (boards_.draft().count >= 2) paintBoard(painter, boards_.draft(), true, true, to_screen);
 }
 
 void CameraView::paintHidden(QPainter& painter, const QRectF& area) const {
   painter.fillRect(area, QColor(7, 9, 12, 165));
   painter.setFont(theme::capsFont(9));
-  painter.setPen(theme::kCaution);
+  painter.setPen(theme::on_dark::kCaution);
   painter.drawText(area, Qt::AlignCenter, tr("Hidden from the tracker"));
 }
 

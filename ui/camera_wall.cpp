@@ -14,12 +14,16 @@ constexpr int kTitleHeight = 26;
 }  // namespace
 
 CameraWall::CameraWall(const RigConfig& rig, QWidget* parent) : QWidget(parent) {
+  setAccessibleName(tr("Cameras"));
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    auto* pane =
-        new CameraPane(cameraId(static_cast<int>(i)), rig.cameras[i], rig.markers_in_body.count(), this);
+    auto* pane = new CameraPane(cameraId(static_cast<int>(i)), rig, this);
     connect(pane, &CameraPane::hideRequested, this, &CameraWall::hideRequested);
     connect(pane, &CameraPane::boardsChanged, this, &CameraWall::boardsChanged);
     connect(pane, &CameraPane::knockRequested, this, &CameraWall::knockRequested);
+    connect(pane, &CameraPane::lossRequested, this, &CameraWall::lossRequested);
+    connect(pane, &CameraPane::noiseRequested, this, &CameraWall::noiseRequested);
+    connect(pane, &CameraPane::pickRequested, this, &CameraWall::pickRequested);
+    connect(pane, &CameraPane::colourPicked, this, &CameraWall::colourPicked);
     connect(pane, &CameraPane::firstImagePainted, this, &CameraWall::firstImagePainted);
     panes_.push_back(pane);
   }

@@ -27,6 +27,10 @@ class CameraWall : public QWidget {
   void hideRequested(helical::CameraId camera, bool hidden);
   void boardsChanged(helical::CameraId camera, const helical::WhiteBoards& boards);
   void knockRequested(helical::CameraId camera, double angle_deg, double distance_m);
+  void lossRequested(helical::CameraId camera, double share);
+  void noiseRequested(helical::CameraId camera, double grey_levels, double px);
+  void pickRequested();
+  void colourPicked(helical::CameraId camera, const Eigen::Vector2d& pixel);
   void firstImagePainted();
 
  protected:

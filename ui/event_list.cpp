@@ -5,6 +5,7 @@
 #include <QStyledItemDelegate>
 #include <algorithm>
 
+#include "ui/catalogue.h"
 #include "ui/format.h"
 #include "ui/theme.h"
 
@@ -16,6 +17,7 @@ constexpr int kScrollBar = 10;
 constexpr int kTextLeft = 82;
 constexpr int kSeverityRole = Qt::UserRole;
 constexpr int kTimeRole = Qt::UserRole + 1;
+constexpr int kSeenRole = Qt::UserRole + 2;
 
 /// Disc, disc, triangle, square: told apart without colour.
 void paintSign(QPainter& painter, const QPointF& center, Severity severity) {
@@ -65,8 +67,15 @@ class EventDelegate : public QStyledItemDelegate {
     painter->setPen(theme::kMuted);
     painter->drawText(QRect(r.left() + 28, r.top() + 2, kTextLeft - 30, 18), Qt::AlignVCenter,
                       index.data(kTimeRole).toString());
-    painter->setFont(theme::uiFont(8.4));
-    painter->setPen(theme::kText);
+    const bool danger = index.data(kSeverityRole).toInt() == static_cast<int>(Severity::kDanger);
+    const bool open = danger && !index.data(kSeenRole).toBool();
+    if (danger && !open) {
+      painter->setPen(QPen(theme::kHealthy, 1.6, Qt::SolidLine, Qt::RoundCap));
+      const QPointF tick(r.left() + 16, r.top() + 11);
+      painter->drawPolyline(QPolygonF{tick + QPointF(1, 2), tick + QPointF(3, 5), tick + QPointF(8, -3)});
+    }
+    painter->setFont(theme::uiFont(8.4, open ? QFont::DemiBold : QFont::Normal));
+    painter->setPen(open ? theme::kDanger.lighter(125) : theme::kText);
     const auto* view = qobject_cast<const QListWidget*>(option.widget);
     const int room = std::min(r.width(), view ? view->width() - kScrollBar : r.width()) - kTextLeft - 8;
     painter->drawText(QRect(r.left() + kTextLeft, r.top() + 3, room, r.height() - 4), Qt::TextWordWrap,
@@ -83,19 +92,64 @@ EventList::EventList(QWidget* parent) : QListWidget(parent) {
   setResizeMode(QListView::Adjust);
   setFrameShape(QFrame::NoFrame);
   setAccessibleName(tr("Events"));
+  setToolTip(tr("What happened, newest at the bottom"));
 }
 
 void EventList::add(const EngineEvent& event) {
   if (event.time < last_) clear();  // a recording was wound back
   last_ = event.time;
   const bool at_end = verticalScrollBar()->value() == verticalScrollBar()->maximum();
-  auto* item = new QListWidgetItem(QString::fromUtf8(event.text.data()));
+  auto* item = new QListWidgetItem(engineText(QString::fromUtf8(event.text.data())));
   item->setData(kSeverityRole, static_cast<int>(event.severity));
   item->setData(kTimeRole, clockText(event.time));
   addItem(item);
+  item->setHidden(!passes(*item));
   if (count() > kLongestList) delete takeItem(0);
   // Someone who scrolled back is reading.
   if (at_end) scrollToBottom();
+}
+
+bool EventList::passes(const QListWidgetItem& item) const {
+  const bool wanted = (severities_ >> item.data(kSeverityRole).toUInt() & 1U) != 0;
+  if (!wanted) return false;
+  for (const QString& word : words_.split(QLatin1Char(' '), Qt::SkipEmptyParts))
+    if (!item.text().contains(word, Qt::CaseInsensitive)) return false;
+  return true;
+}
+
+void EventList::filter(unsigned severities, const QString& words) {
+  severities_ = severities;
+  words_ = words;
+  for (int i = 0; i < count(); ++i) item(i)->setHidden(!passes(*item(i)));
+  scrollToBottom();
+}
+
+void EventList::acknowledge() {
+  for (int i = 0; i < count(); ++i) item(i)->setData(kSeenRole, true);
+}
+
+int EventList::shownCount() const {
+  int shown = 0;
+  for (int i = 0; i < count(); ++i) shown += !item(i)->isHidden();
+  return shown;
+}
+
+int EventList::unacknowledgedCount() const {
+  int open = 0;
+  for (int i = 0; i < count(); ++i)
+    open += item(i)->data(kSeverityRole).toInt() == static_cast<int>(Severity::kDanger) &&
+            !item(i)->data(kSeenRole).toBool();
+  return open;
+}
+
+QIcon EventList::sign(Severity severity) {
+  QPixmap pixmap(32, 32);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.scale(2.2, 2.2);
+  paintSign(painter, QPointF(7.2, 7.2), severity);
+  return QIcon(pixmap);
 }
 
 }  // namespace helical

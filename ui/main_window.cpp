@@ -6,13 +6,12 @@
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QLabel>
+#include <QMenu>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
-#include <QSettings>
 #include <QStatusBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -20,22 +19,31 @@
 #include <string>
 
 #include "engine/base/log.h"
-#include "engine/geometry/rotation.h"
 #include "ui/alarm_bar.h"
+#include "ui/attitude_indicator.h"
 #include "ui/calibration_panel.h"
 #include "ui/camera_pane.h"
 #include "ui/camera_wall.h"
+#include "ui/catalogue.h"
+#include "ui/colour_tool.h"
 #include "ui/emergency_stop.h"
+#include "ui/engine_orders.h"
 #include "ui/event_list.h"
+#include "ui/event_panel.h"
 #include "ui/flight_panel.h"
 #include "ui/format.h"
+#include "ui/key_sheet.h"
+#include "ui/main_menus.h"
+#include "ui/open_dialog.h"
 #include "ui/panel_title.h"
+#include "ui/plan_editor.h"
 #include "ui/playback_bar.h"
 #include "ui/plot_deck.h"
 #include "ui/scene_view.h"
 #include "ui/startup_time.h"
 #include "ui/theme.h"
 #include "ui/top_bar.h"
+#include "ui/tuning_editor.h"
 
 namespace helical {
 namespace {
@@ -48,10 +56,6 @@ constexpr std::uint64_t kSceneEvery = 3;
 constexpr TimeNs kSceneFrom = kNanosecondsPerSecond;
 constexpr std::uint64_t kPlotsEvery = 5;
 constexpr std::uint64_t kNumbersEvery = 6;
-constexpr double kGustSeconds = 1.5;
-constexpr int kLayoutVersion = 1;  // another number when panels are added: old places would not fit
-constexpr const char* kGeometryKey = "window/geometry";
-constexpr const char* kPanelsKey = "window/panels";
 
 QWidget* framed(QWidget* content) {
   auto* box = new QWidget;
@@ -73,7 +77,8 @@ QScrollArea* scrolled(QWidget* content) {
 
 }  // namespace
 
-MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig_(rig), options_(options) {
+MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options)
+    : rig_(rig), options_(options), orders_(new EngineOrders(this)) {
   setWindowTitle(tr("Helical Ground Control"));
   setMinimumSize(1120, 640);
   setDockNestingEnabled(true);
@@ -82,9 +87,12 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig
   top_bar_ = new TopBar(rig_);
   setMenuWidget(top_bar_);
   buildPanels();
+  layouts_ = std::make_unique<DockLayouts>(*this, docks_, options_.layout_file);
   buildMenus();
   buildStatusBar();
   alarms_ = new AlarmBar(this);
+  connect(alarms_, &AlarmBar::acknowledged, this, [this] { events_->list().acknowledge(); });
+  connect(menus_, &MainMenus::soundToggled, alarms_, &AlarmBar::setSound);
   scene_->setFocus();
   if (std::any_of(rig_.cameras.begin(), rig_.cameras.end(),
                   [](const CameraConfig& camera) { return camera.learns(); })) {
@@ -93,11 +101,12 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options) : rig
     plots_->showSheet(PlotDeck::kCalibration);
   }
 
-  connect(top_bar_, &TopBar::armRequested, this, &MainWindow::arm);
-  connect(top_bar_, &TopBar::takeOffRequested, this, &MainWindow::takeOff);
-  connect(top_bar_, &TopBar::landRequested, this, &MainWindow::land);
-  connect(top_bar_, &TopBar::stopRequested, this, &MainWindow::stop);
-  connect(new EmergencyStop(this), &EmergencyStop::pressed, this, &MainWindow::stop);
+  connect(top_bar_, &TopBar::armRequested, orders_, &EngineOrders::arm);
+  connect(top_bar_, &TopBar::takeOffRequested, orders_, &EngineOrders::takeOff);
+  connect(top_bar_, &TopBar::landRequested, orders_, &EngineOrders::land);
+  connect(top_bar_, &TopBar::stopRequested, orders_, &EngineOrders::stop);
+  connect(new EmergencyStop(top_bar_->stopButton(), this), &EmergencyStop::pressed, orders_,
+          &EngineOrders::stop);
   timer_.setTimerType(Qt::PreciseTimer);
   connect(&timer_, &QTimer::timeout, this, &MainWindow::tick);
 }
@@ -106,6 +115,9 @@ MainWindow::~MainWindow() = default;
 
 void MainWindow::attach(Engine& engine) {
   engine_ = &engine;
+  orders_->setEngine(&engine);
+  plan_->setPlan(engine.plan());
+  gains_->setControl(engine.control());
   watch(engine);
 }
 
@@ -126,6 +138,7 @@ void MainWindow::watch(FlightView& view) {
 
 void MainWindow::detach() {
   timer_.stop();
+  orders_->setEngine(nullptr);
   view_ = nullptr;
   engine_ = nullptr;
 }
@@ -135,25 +148,22 @@ void MainWindow::fitToScreen() {
   const QSize size(std::min(room.width(), 1920), std::min(room.height(), 1080));
   setGeometry(QRect(
       room.topLeft() + QPoint((room.width() - size.width()) / 2, (room.height() - size.height()) / 2), size));
-  arrangeDocks();
+  arrange(DockLayouts::Layout::kFly);
 }
 
 bool MainWindow::restoreLayout() {
-  if (options_.layout_file.isEmpty()) return false;
-  const QSettings layout(options_.layout_file, QSettings::IniFormat);
-  return restoreGeometry(layout.value(kGeometryKey).toByteArray()) &&
-         restoreState(layout.value(kPanelsKey).toByteArray(), kLayoutVersion);
+  const bool restored = layouts_->restore();
+  menus_->setLight(layouts_->light());
+  return restored;
 }
 
-void MainWindow::saveLayout() const {
-  if (options_.layout_file.isEmpty()) return;
-  QSettings layout(options_.layout_file, QSettings::IniFormat);
-  layout.setValue(kGeometryKey, saveGeometry());
-  layout.setValue(kPanelsKey, saveState(kLayoutVersion));
+void MainWindow::arrange(DockLayouts::Layout layout) {
+  layouts_->arrange(layout, cameras_->count());
+  if (layout == DockLayouts::Layout::kCalibrate) plots_->showSheet(PlotDeck::kCalibration);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  saveLayout();
+  layouts_->save();
   QMainWindow::closeEvent(event);
 }
 
@@ -175,35 +185,63 @@ void MainWindow::buildPanels() {
   setCentralWidget(center);
 
   cameras_ = new CameraWall(rig_);
-  cameras_dock_ = addPanel(new PanelTitle(tr("Cameras"), theme::kActive), cameras_, Qt::LeftDockWidgetArea);
-  connect(cameras_, &CameraWall::firstImagePainted, this, &MainWindow::noteFirstImage);
-  connect(cameras_, &CameraWall::hideRequested, this, [this](CameraId camera, bool hidden) {
-    if (engine_) engine_->hideCamera(camera, hidden);
-  });
-  connect(cameras_, &CameraWall::boardsChanged, this, [this](CameraId camera, const WhiteBoards& boards) {
-    if (engine_) engine_->setBoards(camera, boards);
-  });
-  connect(cameras_, &CameraWall::knockRequested, this,
-          [this](CameraId camera, double angle_deg, double distance_m) {
-            if (engine_) engine_->knockCamera(camera, toRadians(angle_deg), distance_m);
-          });
+  docks_.cameras = addPanel(new PanelTitle(tr("Cameras"), theme::kActive), cameras_, Qt::LeftDockWidgetArea);
+  connectCameras();
   plots_ = new PlotDeck(rig_);
   auto* plots_title = new PanelTitle(tr("Plots"), theme::kActive);
   plots_->addControls(*plots_title);
-  plots_dock_ = addPanel(plots_title, framed(plots_), Qt::BottomDockWidgetArea);
-  flight_ = new FlightPanel;
-  flight_dock_ = addPanel(new PanelTitle(tr("Flight"), theme::kActive), framed(scrolled(flight_)),
-                          Qt::RightDockWidgetArea);
+  docks_.plots = addPanel(plots_title, framed(plots_), Qt::BottomDockWidgetArea);
+  buildFlightPanels();
   calibration_ = new CalibrationPanel(rig_, Engine::calibrators());
-  connect(calibration_, &CalibrationPanel::methodChosen, this, &MainWindow::chooseMethod);
-  connect(calibration_, &CalibrationPanel::restartRequested, this, [this](CameraId camera) {
-    if (engine_) engine_->restartCalibration(camera);
-  });
-  calibration_dock_ = addPanel(new PanelTitle(tr("Calibration"), theme::kActive),
-                               framed(scrolled(calibration_)), Qt::RightDockWidgetArea);
-  events_ = new EventList;
-  events_dock_ =
+  connect(calibration_, &CalibrationPanel::methodChosen, orders_, &EngineOrders::setCalibrator);
+  connect(calibration_, &CalibrationPanel::restartRequested, orders_, &EngineOrders::restartCalibration);
+  docks_.calibration = addPanel(new PanelTitle(tr("Calibration"), theme::kActive),
+                                framed(scrolled(calibration_)), Qt::RightDockWidgetArea);
+  events_ = new EventPanel;
+  docks_.events =
       addPanel(new PanelTitle(tr("Events"), theme::kActive), framed(events_), Qt::RightDockWidgetArea);
+}
+
+void MainWindow::buildFlightPanels() {
+  flight_ = new FlightPanel;
+  attitude_ = new AttitudeIndicator;
+  auto* state = new QWidget;
+  auto* layout = new QVBoxLayout(state);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(attitude_);
+  layout->addWidget(scrolled(flight_), 1);
+  docks_.flight =
+      addPanel(new PanelTitle(tr("Flight"), theme::kActive), framed(state), Qt::RightDockWidgetArea);
+  plan_ = new PlanEditor;
+  docks_.plan = addPanel(new PanelTitle(tr("Plan"), theme::kActive), framed(plan_), Qt::RightDockWidgetArea);
+  gains_ = new TuningEditor(rig_.control);
+  docks_.gains = addPanel(new PanelTitle(tr("Gains"), theme::kActive), framed(scrolled(gains_)),
+                          Qt::RightDockWidgetArea);
+  connect(plan_, &PlanEditor::draftChanged, this,
+          [this](const FlightPlan& draft) { scene_->setPlan(draft, plan_->edited()); });
+  connect(scene_, &SceneView::waypointDragged, plan_, &PlanEditor::moveWaypoint);
+  connect(plan_, &PlanEditor::applyRequested, orders_, [this](const FlightPlan& plan) {
+    orders_->change({plan, {}});
+  });
+  connect(gains_, &TuningEditor::applyRequested, orders_, [this](const ControllerOptions& control) {
+    orders_->change({{}, control});
+  });
+  connect(orders_, &EngineOrders::changed, this, [this] {
+    if (!engine_) return;
+    plan_->setPlan(engine_->plan());
+    gains_->setControl(engine_->control());
+  });
+}
+
+void MainWindow::connectCameras() {
+  connect(cameras_, &CameraWall::firstImagePainted, this, &MainWindow::noteFirstImage);
+  connect(cameras_, &CameraWall::hideRequested, orders_, &EngineOrders::hideCamera);
+  connect(cameras_, &CameraWall::boardsChanged, orders_, &EngineOrders::setBoards);
+  connect(cameras_, &CameraWall::lossRequested, orders_, &EngineOrders::loseFrames);
+  connect(cameras_, &CameraWall::noiseRequested, orders_, &EngineOrders::addNoise);
+  connect(cameras_, &CameraWall::knockRequested, orders_, &EngineOrders::knock);
+  colour_tool_ = new ColourTool(*cameras_, *orders_, this);
 }
 
 QDockWidget* MainWindow::addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area) {
@@ -236,21 +274,26 @@ void MainWindow::buildSceneTitle(PanelTitle& title) {
     button->setAccessibleName(tr("%1 view").arg(names[i].first));
     title.addWidget(button);
   }
-}
-
-void MainWindow::buildMenus() {
-  buildFileMenu();
-  buildFlightMenu();
-  buildCameraMenu();
-  buildDisturbMenu();
-  buildViewMenu();
-  buildHelpMenu();
-}
-
-void MainWindow::buildFileMenu() {
-  setAcceptDrops(true);
-  QMenu* menu = top_bar_->menuBar()->addMenu(tr("F&ile"));
-  menu->addAction(tr("Open session..."), QKeySequence::Open, this, &MainWindow::chooseSession);
+  auto* through = new QToolButton;
+  through->setObjectName(QStringLiteral("small"));
+  through->setText(tr("Camera"));
+  through->setFont(theme::uiFont(8, QFont::Medium));
+  through->setFixedHeight(19);
+  through->setFocusPolicy(Qt::TabFocus);
+  through->setPopupMode(QToolButton::InstantPopup);
+  through->setToolTip(tr("Through a camera, from where it is believed to stand"));
+  through->setAccessibleName(tr("View through a camera"));
+  auto* menu = new QMenu(through);
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    QAction* action =
+        viewpoints_->addAction(tr("Through %1").arg(QString::fromStdString(rig_.cameras[i].name)));
+    action->setCheckable(true);
+    connect(action, &QAction::triggered, this,
+            [this, i] { scene_->lookThrough(cameraId(static_cast<int>(i))); });
+    menu->addAction(action);
+  }
+  through->setMenu(menu);
+  title.addWidget(through);
 }
 
 void MainWindow::chooseSession() {
@@ -268,100 +311,36 @@ void MainWindow::dropEvent(QDropEvent* event) {
   Q_EMIT sessionChosen(event->mimeData()->urls().first().toLocalFile());
 }
 
-void MainWindow::buildFlightMenu() {
-  QMenu* menu = top_bar_->menuBar()->addMenu(tr("&Flight"));
-  take_off_action_ = menu->addAction(tr("Take off"), this, &MainWindow::takeOff);
-  land_action_ = menu->addAction(tr("Land"), this, &MainWindow::land);
-  // Esc is named, not set as shortcut: the application-wide filter has it before any shortcut could.
-  menu->addAction(tr("STOP\tEsc"), this, &MainWindow::stop);
-  menu->addSeparator();
-  menu->addAction(tr("Quit"), QKeySequence::Quit, this, &QWidget::close);
-  take_off_action_->setEnabled(false);
-  land_action_->setEnabled(false);
-}
-
-void MainWindow::buildCameraMenu() {
-  QMenu* menu = top_bar_->menuBar()->addMenu(tr("&Cameras"));
-  for (int i = 0; i < cameras_->count(); ++i) {
-    const QString name = QString::fromStdString(rig_.cameras[static_cast<std::size_t>(i)].name);
-    QAction* action = menu->addAction(tr("Hide %1").arg(name));
-    action->setCheckable(true);
-    if (i < 9) action->setShortcut(QKeySequence(Qt::Key_1 + i));
-    connect(action, &QAction::triggered, this, [this, i](bool hidden) {
-      if (engine_) engine_->hideCamera(cameraId(i), hidden);
-    });
-    hide_actions_.push_back(action);
-  }
-}
-
-void MainWindow::buildDisturbMenu() {
-  QMenu* menu = top_bar_->menuBar()->addMenu(tr("&Disturb"));
-  if (!rig_.cameras.empty() && rig_.cameras.front().source == "sim") {
-    const auto add = [&](const QString& text, double speed) {
-      menu->addAction(text, this, [this, speed] {
-        if (engine_) engine_->gust({speed, 0.3 * speed, 0.0}, kGustSeconds);
-      });
-    };
-    add(tr("Light gust (0.8 m/s)"), 0.8);
-    add(tr("Strong gust (2 m/s)"), 2.0);
-    menu->addSeparator();
-  }
-  for (int i = 0; i < cameras_->count(); ++i)
-    menu->addMenu(QString::fromStdString(rig_.cameras[static_cast<std::size_t>(i)].name))
-        ->addActions(cameras_->pane(i).disturbances());
-}
-
-void MainWindow::buildViewMenu() {
-  QMenu* menu = top_bar_->menuBar()->addMenu(tr("&View"));
-  for (QAction* action : viewpoints_->actions()) menu->addAction(action);
-  menu->addSeparator();
-  for (QDockWidget* dock : {cameras_dock_, plots_dock_, flight_dock_, calibration_dock_, events_dock_})
-    menu->addAction(dock->toggleViewAction());
-  menu->addAction(tr("Default layout"), this, &MainWindow::arrangeDocks);
-  menu->addSeparator();
-  QAction* coverage = menu->addAction(tr("Border of what two cameras see"));
-  coverage->setCheckable(true);
-  coverage->setChecked(true);
-  connect(coverage, &QAction::toggled, this, [this](bool shown) { scene_->setCoverageShown(shown); });
-  QAction* live = menu->addAction(tr("Pause the plots"));
-  live->setCheckable(true);
-  live->setShortcut(QKeySequence(Qt::Key_Space));
-  connect(live, &QAction::triggered, this, [this](bool paused) { plots_->axis().setLive(!paused); });
-  connect(&plots_->axis(), &TimeAxis::liveChanged, live, [live](bool on) { live->setChecked(!on); });
-  QAction* full = menu->addAction(tr("Full screen"));
-  full->setCheckable(true);
-  full->setShortcut(QKeySequence(Qt::Key_F11));
-  connect(full, &QAction::toggled, this, &MainWindow::toggleFullScreen);
-}
-
-void MainWindow::buildHelpMenu() {
-  QMenu* menu = top_bar_->menuBar()->addMenu(tr("&Help"));
-  menu->addAction(tr("Keys"), QKeySequence(Qt::Key_F1), this, &MainWindow::showKeys);
-  menu->addAction(tr("About Helical"), this, &MainWindow::showAbout);
-}
-
-void MainWindow::showKeys() {
-  QMessageBox box(QMessageBox::NoIcon, tr("Keys"),
-                  tr("<table cellpadding='4'>"
-                     "<tr><td><b>Esc</b></td><td>STOP: rotors off at once, whatever has the focus</td></tr>"
-                     "<tr><td><b>1 \u2026 9</b></td><td>hide or show a camera</td></tr>"
-                     "<tr><td><b>Space</b></td><td>hold the plots still, or follow again</td></tr>"
-                     "<tr><td><b>F11</b></td><td>full screen</td></tr>"
-                     "<tr><td><b>Ctrl+Q</b></td><td>quit</td></tr></table>"),
-                  QMessageBox::Ok, this);
-  box.exec();
-}
-
-void MainWindow::showAbout() {
-  QMessageBox box(QMessageBox::NoIcon, tr("About Helical"),
-                  tr("<b>Helical</b><br>Ground control for small helicopters that carry no sensors.<br><br>"
-                     "GPL-3.0-or-later"),
-                  QMessageBox::Ok, this);
-  box.exec();
-}
-
-void MainWindow::toggleFullScreen(bool full) {
-  setWindowState(full ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
+void MainWindow::buildMenus() {
+  setAcceptDrops(true);
+  QMenu* file = top_bar_->menuBar()->addMenu(tr("F&ile"));
+  file->addAction(tr("Open session..."), QKeySequence::Open, this, &MainWindow::chooseSession);
+  menus_ = new MainMenus(rig_,
+                         {*cameras_,
+                          *scene_,
+                          *plots_,
+                          viewpoints_->actions(),
+                          {docks_.cameras, docks_.plots, docks_.flight, docks_.plan, docks_.gains,
+                           docks_.calibration, docks_.events}},
+                         *top_bar_->menuBar(), *this);
+  connect(menus_, &MainMenus::takeOffRequested, orders_, &EngineOrders::takeOff);
+  connect(menus_, &MainMenus::landRequested, orders_, &EngineOrders::land);
+  connect(menus_, &MainMenus::stopRequested, orders_, &EngineOrders::stop);
+  connect(menus_, &MainMenus::hideRequested, orders_, &EngineOrders::hideCamera);
+  connect(menus_, &MainMenus::backgroundRequested, orders_, &EngineOrders::takeBackground);
+  connect(menus_, &MainMenus::gustRequested, orders_, &EngineOrders::gust);
+  connect(menus_, &MainMenus::colourRequested, colour_tool_, &ColourTool::open);
+  connect(menus_, &MainMenus::lightToggled, this, [this](bool light) {
+    layouts_->setLight(light);
+    theme::apply(*qApp, light ? theme::Theme::kLight : theme::Theme::kDark);
+  });
+  connect(menus_, &MainMenus::layoutRequested, this, &MainWindow::arrange);
+  connect(menus_, &MainMenus::keysRequested, this, [this] { openDialog(new KeySheet(this)); });
+  connect(menus_, &MainMenus::aboutRequested, this, [this] {
+    openNotice(this, tr("About Helical"),
+               tr("<b>Helical</b><br>Ground control for small helicopters that carry no sensors.<br><br>"
+                  "GPL-3.0-or-later"));
+  });
 }
 
 void MainWindow::buildStatusBar() {
@@ -380,55 +359,6 @@ void MainWindow::buildStatusBar() {
   statusBar()->addPermanentWidget(load_);
 }
 
-void MainWindow::arrangeDocks() {
-  const std::array<std::pair<QDockWidget*, Qt::DockWidgetArea>, 5> places{
-      {{cameras_dock_, Qt::LeftDockWidgetArea},
-       {plots_dock_, Qt::BottomDockWidgetArea},
-       {flight_dock_, Qt::RightDockWidgetArea},
-       {calibration_dock_, Qt::RightDockWidgetArea},
-       {events_dock_, Qt::RightDockWidgetArea}}};
-  for (const auto& [dock, area] : places) {
-    dock->setFloating(false);
-    addDockWidget(area, dock);
-    dock->show();
-  }
-  // Three 4:3 pictures above each other fill the height; more cameras get more width.
-  const int per_camera = (height() - 110) / std::clamp(cameras_->count(), 1, 3) - 32;
-  const int wanted = cameras_->count() > 3 ? width() * 2 / 5 : per_camera * 4 / 3;
-  const int cameras_width = std::clamp(wanted, std::min(360, width() * 23 / 100), width() * 2 / 5);
-  resizeDocks({cameras_dock_, flight_dock_}, {cameras_width, 278}, Qt::Horizontal);
-  resizeDocks({plots_dock_}, {height() * 28 / 100}, Qt::Vertical);
-  const int flight_height = flight_->sizeHint().height() + 28;
-  const int calibration_height = calibration_->sizeHint().height() + 28;
-  const int left = height() - 110 - flight_height - calibration_height;
-  resizeDocks({flight_dock_, calibration_dock_, events_dock_},
-              {flight_height, calibration_height, std::max(80, left)}, Qt::Vertical);
-}
-
-void MainWindow::chooseMethod(const QString& method) {
-  if (engine_) engine_->setCalibrator(method.toStdString());
-}
-
-void MainWindow::arm(bool arm) {
-  if (engine_ == nullptr) return;
-  if (arm)
-    engine_->arm();
-  else
-    engine_->disarm();
-}
-
-void MainWindow::takeOff() {
-  if (engine_) engine_->takeOff();
-}
-
-void MainWindow::land() {
-  if (engine_) engine_->land();
-}
-
-void MainWindow::stop() {
-  if (engine_) engine_->kill();
-}
-
 void MainWindow::tick() {
   ++ticks_;
   view_->poll();
@@ -438,7 +368,7 @@ void MainWindow::tick() {
   while (view_->nextEvent(event)) {
     events_->add(event);
     alarms_->add(event);
-    newest_event_->setText(QString::fromUtf8(event.text.data()));
+    newest_event_->setText(engineText(QString::fromUtf8(event.text.data())));
   }
   if (ticks_ % kPictureEvery == 0) fetchPictures();
   if (ticks_ % kSceneEvery == 0) fetchCalibrations();
@@ -449,8 +379,8 @@ void MainWindow::tick() {
   if (since_load_.elapsed() >= 1000) showLoad();
   if (options_.auto_take_off && !took_off_by_itself_ && snapshot.pose_known && snapshot.failing_checks == 0) {
     took_off_by_itself_ = true;
-    arm(true);
-    takeOff();
+    orders_->arm(true);
+    orders_->takeOff();
   }
 }
 
@@ -458,6 +388,7 @@ void MainWindow::fetchTicks() {
   EngineSnapshot tick;
   while (view_->nextTick(tick)) {
     plots_->addTick(tick);
+    calibration_->addTick(tick);
     scene_->addTick(tick);
     for (int i = 0; i < std::min(tick.camera_count, cameras_->count()); ++i)
       cameras_->pane(i).addTrack(tick.cameras[static_cast<std::size_t>(i)].track);
@@ -482,7 +413,6 @@ void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
   for (int i = 0; i < std::min(snapshot.camera_count, cameras_->count()); ++i) {
     const CameraSnapshot& camera = snapshot.cameras[static_cast<std::size_t>(i)];
     cameras_->pane(i).setState(camera, snapshot);
-    hide_actions_[static_cast<std::size_t>(i)]->setChecked(camera.hidden);
   }
   top_bar_->show(snapshot);
   if (engine_ == nullptr) {
@@ -490,9 +420,9 @@ void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
     top_bar_->takeOffButton()->setEnabled(false);
     top_bar_->landButton()->setEnabled(false);
   }
-  take_off_action_->setEnabled(top_bar_->takeOffButton()->isEnabled());
-  land_action_->setEnabled(top_bar_->landButton()->isEnabled());
+  menus_->show(snapshot, top_bar_->takeOffButton()->isEnabled(), top_bar_->landButton()->isEnabled());
   flight_->show(snapshot);
+  attitude_->show(snapshot);
   calibration_->show(snapshot);
 }
 

@@ -4,29 +4,35 @@
 #include <QMainWindow>
 #include <QTimer>
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "engine/pipeline/engine.h"
+#include "ui/dock_layouts.h"
 #include "ui/orbit_view.h"
 
-class QAction;
 class QActionGroup;
 class QLabel;
-class QMenu;
 
 namespace helical {
 
 class AlarmBar;
+class AttitudeIndicator;
 class CalibrationPanel;
 class CameraWall;
-class EventList;
+class ColourTool;
+class EngineOrders;
+class EventPanel;
 class FlightPanel;
 class FlightPlayback;
+class MainMenus;
 class PanelTitle;
+class PlanEditor;
 class PlaybackBar;
 class PlotDeck;
 class SceneView;
 class TopBar;
+class TuningEditor;
 
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
@@ -54,6 +60,7 @@ class MainWindow : public QMainWindow {
   void fitToScreen();
   /// The panels as they were when the window was last closed; false if there is nothing to go by.
   bool restoreLayout();
+  void arrange(DockLayouts::Layout layout);
 
   /// From the start of the process to the first camera picture on the screen.
   std::optional<TimeNs> firstImageNs() const { return first_image_; }
@@ -63,19 +70,17 @@ class MainWindow : public QMainWindow {
   PlotDeck& plots() const { return *plots_; }
   CalibrationPanel& calibration() const { return *calibration_; }
   AlarmBar& alarms() const { return *alarms_; }
-  EventList& events() const { return *events_; }
+  EventPanel& events() const { return *events_; }
+  ColourTool& colourTool() const { return *colour_tool_; }
+  PlanEditor& plan() const { return *plan_; }
+  TuningEditor& gains() const { return *gains_; }
+  AttitudeIndicator& attitude() const { return *attitude_; }
   TopBar& topBar() const { return *top_bar_; }
 
  Q_SIGNALS:
   /// File > Open session, or a file dragged onto the window.
   void sessionChosen(const QString& file);
   void firstImage(qint64 since_process_start_ns);
-
- public Q_SLOTS:
-  void arm(bool arm);
-  void takeOff();
-  void land();
-  void stop();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -84,22 +89,13 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
 
  private:
-  void saveLayout() const;
   void buildPanels();
+  void buildFlightPanels();
+  void connectCameras();
   QDockWidget* addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area);
   void buildSceneTitle(PanelTitle& title);
   void buildMenus();
-  void buildFileMenu();
-  void buildFlightMenu();
-  void buildCameraMenu();
-  void buildDisturbMenu();
-  void buildViewMenu();
-  void buildHelpMenu();
   void buildStatusBar();
-  void arrangeDocks();
-  void showKeys();
-  void showAbout();
-  void toggleFullScreen(bool full);
 
   void watch(FlightView& view);
   void chooseSession();
@@ -107,13 +103,13 @@ class MainWindow : public QMainWindow {
   void fetchTicks();
   void fetchPictures();
   void fetchCalibrations();
-  void chooseMethod(const QString& method);
   void showNumbers(const EngineSnapshot& snapshot);
   void showLoad();
   void noteFirstImage();
 
   const RigConfig rig_;
   const WindowOptions options_;
+  EngineOrders* const orders_;
   FlightView* view_ = nullptr;  ///< what is shown
   Engine* engine_ = nullptr;    ///< the same where it can be commanded
   PlaybackBar* playback_bar_ = nullptr;
@@ -132,17 +128,16 @@ class MainWindow : public QMainWindow {
   PlotDeck* plots_;
   CalibrationPanel* calibration_;
   FlightPanel* flight_;
-  EventList* events_;
-  QDockWidget* cameras_dock_;
-  QDockWidget* plots_dock_;
-  QDockWidget* flight_dock_;
-  QDockWidget* calibration_dock_;
-  QDockWidget* events_dock_;
+  EventPanel* events_;
+  AttitudeIndicator* attitude_;
+  PlanEditor* plan_;
+  TuningEditor* gains_;
+  DockLayouts::Docks docks_{};
+  std::unique_ptr<DockLayouts> layouts_;
+  MainMenus* menus_;
+  ColourTool* colour_tool_;
   PanelTitle* scene_title_;
   QActionGroup* viewpoints_;
-  QAction* take_off_action_;
-  QAction* land_action_;
-  std::vector<QAction*> hide_actions_;
   QLabel* newest_event_;
   QLabel* load_;
 };

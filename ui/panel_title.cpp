@@ -1,5 +1,6 @@
 #include "ui/panel_title.h"
 
+#include <QEvent>
 #include <QFontMetrics>
 #include <QPainter>
 
@@ -38,6 +39,12 @@ void PanelTitle::setNote(const QString& full, const QString& brief) {
 
 void PanelTitle::addWidget(QWidget* widget) {
   layout_->addWidget(widget);
+}
+
+void PanelTitle::changeEvent(QEvent* event) {
+  if (event->type() != QEvent::PaletteChange) return;
+  tick_ = theme::translated(tick_);
+  badge_color_ = theme::translated(badge_color_);
 }
 
 QSize PanelTitle::sizeHint() const {

@@ -29,6 +29,7 @@ class PanelTitle : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   /// A dot where the word does not fit. Returns where the next text may begin.

@@ -6,6 +6,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "ui/latency_plot.h"
 #include "ui/panel_title.h"
 #include "ui/plot_page.h"
 #include "ui/theme.h"
@@ -25,15 +26,21 @@ PlotDeck::PlotDeck(const RigConfig& rig, QWidget* parent)
                                trackingPage(rig, history_)}) {
     auto* plots = new TimePlots(rig, page, history_, axis_);
     sheets_.push_back(plots);
-    stack_->addWidget(plots);
-    QAction* action = choice_->addAction(page.name);
-    action->setCheckable(true);
-    action->setToolTip(page.tip);
-    const int index = stack_->count() - 1;
-    connect(action, &QAction::triggered, this, [this, index] { showSheet(static_cast<Sheet>(index)); });
+    addSheet(plots, page.name, page.tip);
   }
+  latency_ = new LatencyPlot(rig, history_);
+  addSheet(latency_, tr("Latency"), tr("How long the frames were on their way"));
   connect(&axis_, &TimeAxis::changed, this, &PlotDeck::redraw);
   showSheet(kFlight);
+}
+
+void PlotDeck::addSheet(QWidget* sheet, const QString& name, const QString& tip) {
+  stack_->addWidget(sheet);
+  QAction* action = choice_->addAction(name);
+  action->setCheckable(true);
+  action->setToolTip(tip);
+  const int index = stack_->count() - 1;
+  connect(action, &QAction::triggered, this, [this, index] { showSheet(static_cast<Sheet>(index)); });
 }
 
 void PlotDeck::addControls(PanelTitle& title) {
@@ -70,7 +77,11 @@ void PlotDeck::showSheet(Sheet sheet) {
 
 void PlotDeck::redraw() {
   if (history_.end() > 0) axis_.advance(history_.time(history_.first()), history_.time(history_.end() - 1));
-  if (isVisible()) sheets_[static_cast<std::size_t>(stack_->currentIndex())]->redraw();
+  if (!isVisible()) return;
+  if (stack_->currentIndex() == kLatency)
+    latency_->show(axis_.begin(), axis_.end());
+  else
+    sheets_[static_cast<std::size_t>(stack_->currentIndex())]->redraw();
 }
 
 }  // namespace helical

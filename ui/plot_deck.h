@@ -12,6 +12,7 @@ class QStackedWidget;
 
 namespace helical {
 
+class LatencyPlot;
 class PanelTitle;
 class TimePlots;
 
@@ -23,7 +24,7 @@ class PlotDeck : public QWidget {
   /// `rig` must outlive this.
   explicit PlotDeck(const RigConfig& rig, QWidget* parent = nullptr);
 
-  enum Sheet { kFlight, kCalibration, kFeatures, kTracking };
+  enum Sheet { kFlight, kCalibration, kFeatures, kTracking, kLatency };
 
   /// Buttons of the sheets and of Live, for the panel's title.
   void addControls(PanelTitle& title);
@@ -34,16 +35,21 @@ class PlotDeck : public QWidget {
   void redraw();
 
   void showSheet(Sheet sheet);
+  /// Not of kLatency, which is no function of time.
   TimePlots& sheet(Sheet sheet) const { return *sheets_[static_cast<std::size_t>(sheet)]; }
+  LatencyPlot& latency() const { return *latency_; }
   TimeAxis& axis() { return axis_; }
   const TickHistory& history() const { return history_; }
 
  private:
+  void addSheet(QWidget* sheet, const QString& name, const QString& tip);
+
   TickHistory history_;
   TimeAxis axis_;
   QStackedWidget* stack_;
   QActionGroup* choice_;
   std::vector<TimePlots*> sheets_;
+  LatencyPlot* latency_;
 };
 
 }  // namespace helical

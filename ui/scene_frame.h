@@ -13,6 +13,7 @@
 #include "engine/geometry/rigid_transform.h"
 #include "engine/helicopter/helicopter_parameters.h"
 #include "engine/helicopter/marker_layout.h"
+#include "ui/waypoint_drag.h"
 
 namespace helical {
 
@@ -27,9 +28,8 @@ struct SceneSetup {
   std::vector<SceneCamera> cameras;
   MarkerLayout markers;
   HelicopterParameters helicopter;
-  double fence_radius = 0.0;          ///< m from the pad's centre
-  double fence_height = 0.0;          ///< m above the pad
-  std::vector<Eigen::Vector3d> plan;  ///< waypoints of the helicopter's origin, in flying order
+  double fence_radius = 0.0;  ///< m from the pad's centre
+  double fence_height = 0.0;  ///< m above the pad
 };
 
 /// A line from a camera through a marker it sees.
@@ -76,7 +76,11 @@ struct SceneFrame {
   std::vector<SceneRay> rays;
   std::vector<SceneParticle> particles;
   std::shared_ptr<const std::vector<Eigen::Vector3d>> coverage;  ///< lines, two points each; null: not shown
-  double fence_nearness = 0.0;                                   ///< 0 far from the fence, 1 at it
+  std::vector<Eigen::Vector3d> plan;  ///< waypoints of the helicopter's origin, in flying order
+  bool plan_is_draft = false;         ///< not in force yet
+  int meant_waypoint = -1;            ///< under the mouse; -1: none
+  double field_of_view = 0.61;        ///< vertical [rad]
+  double fence_nearness = 0.0;        ///< 0 far from the fence, 1 at it
   Eigen::Vector3d eye = Eigen::Vector3d::UnitX();
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
@@ -93,6 +97,8 @@ struct RenderedScene {
   QImage image;
   std::vector<SceneLabel> labels;
   double milliseconds = 0.0;
+  SceneProjection projection;         ///< of this picture
+  std::vector<Eigen::Vector3d> plan;  ///< the waypoints in it
 };
 
 }  // namespace helical

@@ -54,17 +54,15 @@ bool near(const RigidTransform& a, const RigidTransform& b) {
 
 }  // namespace
 
-SceneSetup sceneSetup(const RigConfig& rig, const FlightPlan& plan) {
+SceneSetup sceneSetup(const RigConfig& rig) {
   SceneSetup setup;
   setup.markers = rig.markers_in_body;
   setup.helicopter = rig.helicopter;
   setup.fence_radius = rig.safety.fence_radius;
   setup.fence_height = rig.safety.fence_height;
-  const Eigen::Vector3d stand(0.0, 0.0, rig.helicopter.standing_height);
-  for (const Waypoint& waypoint : plan.waypoints) setup.plan.push_back(stand + waypoint.position_above_pad);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     setup.cameras.push_back({QString::fromStdString(rig.cameras[i].name),
-                             theme::cameraColor(static_cast<int>(i)), rig.cameras[i].model});
+                             theme::on_dark::cameraColor(static_cast<int>(i)), rig.cameras[i].model});
   return setup;
 }
 
@@ -86,6 +84,12 @@ void SceneFrameBuilder::setCalibration(int camera, const CalibrationView& view) 
     const auto& particle = view.particles[static_cast<std::size_t>(i)];
     particles.push_back({camera, particle.centre_in_world.cast<double>(), particle.weight});
   }
+}
+
+void SceneFrameBuilder::setPlan(const FlightPlan& plan, bool draft) {
+  plan_above_pad_.clear();
+  for (const Waypoint& waypoint : plan.waypoints) plan_above_pad_.push_back(waypoint.position_above_pad);
+  plan_is_draft_ = draft;
 }
 
 void SceneFrameBuilder::addToTrail(const EngineSnapshot& tick) {
@@ -165,6 +169,9 @@ SceneFrame SceneFrameBuilder::build(const EngineSnapshot& snapshot) {
     const auto& particles = particles_[static_cast<std::size_t>(i)];
     frame.particles.insert(frame.particles.end(), particles.begin(), particles.end());
   }
+  const Eigen::Vector3d stand(0.0, 0.0, snapshot.pad_height);
+  for (const Eigen::Vector3d& waypoint : plan_above_pad_) frame.plan.push_back(stand + waypoint);
+  frame.plan_is_draft = plan_is_draft_;
   frame.fence_nearness = fenceNearness(frame);
   if (coverage_shown_) {
     updateCoverage(frame);

@@ -12,8 +12,7 @@
 
 namespace helical {
 
-/// `plan` is flown above the helicopter's nominal stand on the pad.
-SceneSetup sceneSetup(const RigConfig& rig, const FlightPlan& plan);
+SceneSetup sceneSetup(const RigConfig& rig);
 
 /// Turns the engine's ticks into what the scene shows; remembers the trail and the rotors' angle.
 class SceneFrameBuilder {
@@ -26,6 +25,8 @@ class SceneFrameBuilder {
   void setCalibration(int camera, const CalibrationView& view);
   /// Whether the border of what two cameras see is part of the scene.
   void setCoverageShown(bool shown) { coverage_shown_ = shown; }
+  /// Waypoints to be shown, above where the helicopter stands; `draft`: not in force yet.
+  void setPlan(const FlightPlan& plan, bool draft);
   /// The newest state. The caller sets the eye.
   SceneFrame build(const EngineSnapshot& snapshot);
 
@@ -45,6 +46,8 @@ class SceneFrameBuilder {
   std::deque<TrailPoint> trail_;
   std::array<std::vector<SceneParticle>, kMaxCameras> particles_;
   RigidTransform last_pose_;
+  std::vector<Eigen::Vector3d> plan_above_pad_;
+  bool plan_is_draft_ = false;
   bool coverage_shown_ = true;
   std::vector<SceneCameraPose> covering_;  ///< the cameras that `coverage_` was computed for
   std::shared_ptr<const std::vector<Eigen::Vector3d>> coverage_;

@@ -137,4 +137,35 @@ vtkSmartPointer<vtkActor> flat(const Mesh& mesh, const QColor& color, double opa
   return actor;
 }
 
+/// The same segments, each in dashes.
+std::vector<Eigen::Vector3d> dashed(const std::vector<Eigen::Vector3d>& segments, double dash) {
+  std::vector<Eigen::Vector3d> result;
+  for (std::size_t i = 0; i + 1 < segments.size(); i += 2) {
+    const Eigen::Vector3d along = segments[i + 1] - segments[i];
+    const int pieces = std::max(1, static_cast<int>(along.norm() / (2.0 * dash)));
+    for (int k = 0; k < pieces; ++k)
+      result.insert(result.end(),
+                    {segments[i] + along * (k + 0.0) / pieces, segments[i] + along * (k + 0.5) / pieces});
+  }
+  return result;
+}
+
+std::vector<Eigen::Vector3d> circle(double radius, double height) {
+  constexpr int kSides = 96;
+  std::vector<Eigen::Vector3d> segments;
+  for (int i = 0; i < kSides; ++i)
+    for (const int end : {i, i + 1})
+      segments.emplace_back(radius * std::cos(2.0 * kPi * end / kSides),
+                            radius * std::sin(2.0 * kPi * end / kSides), height);
+  return segments;
+}
+
+/// Row-major 4x4, as vtkTransform takes it.
+std::array<double, 16> matrixOf(const RigidTransform& transform) {
+  const Eigen::Matrix3d r = transform.rotation.toRotationMatrix();
+  const Eigen::Vector3d& t = transform.translation;
+  return {r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(),
+          r(2, 0), r(2, 1), r(2, 2), t.z(), 0.0,     0.0,     0.0,     1.0};
+}
+
 }  // namespace helical::shapes

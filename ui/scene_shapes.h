@@ -3,7 +3,10 @@
 #include <vtkSmartPointer.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
+
+#include "engine/geometry/rigid_transform.h"
 
 class vtkActor;
 class vtkPolyData;
@@ -23,6 +26,14 @@ Mesh merged(const std::vector<Mesh>& parts);
 
 /// Straight lines, two points each.
 Mesh segments(const std::vector<Eigen::Vector3d>& points);
+
+/// The same segments, each in dashes.
+std::vector<Eigen::Vector3d> dashed(const std::vector<Eigen::Vector3d>& segments, double dash);
+/// As segments, about the z axis.
+std::vector<Eigen::Vector3d> circle(double radius, double height);
+
+/// Row-major 4x4, as vtkTransform takes it.
+std::array<double, 16> matrixOf(const RigidTransform& transform);
 
 /// An actor for shaded surfaces, and one for lines and flat colours.
 vtkSmartPointer<vtkActor> solid(const Mesh& mesh, const QColor& color, double shine = 0.25);

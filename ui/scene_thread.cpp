@@ -83,7 +83,9 @@ RenderedScene SceneThread::render(const SceneFrame& frame, const QSizeF& size, d
   scene_->show(frame);
   result.image = surface_->render((size * pixel_ratio).toSize().expandedTo(QSize(1, 1)));
   result.image.setDevicePixelRatio(pixel_ratio);
-  result.labels = scene_->labels(frame, size);
+  result.projection = scene_->projection(size);
+  result.labels = scene_->labels(frame, result.projection);
+  result.plan = frame.plan;
   result.milliseconds = static_cast<double>(timer.nsecsElapsed()) * 1e-6;
   return result;
 }

@@ -3,6 +3,7 @@
 #include <QPoint>
 #include <QWidget>
 #include <memory>
+#include <optional>
 
 #include "engine/config/rig_config.h"
 #include "engine/pipeline/snapshot.h"
@@ -25,34 +26,51 @@ class SceneView : public QWidget {
   void addTick(const EngineSnapshot& tick);
   void setCalibration(int camera, const CalibrationView& view) { builder_.setCalibration(camera, view); }
   void setCoverageShown(bool shown) { builder_.setCoverageShown(shown); }
-  /// What is to be flown; before the first `show`.
-  void setPlan(const FlightPlan& plan) { plan_ = plan; }
+  /// The waypoints to be shown; a `draft` is not in force yet.
+  void setPlan(const FlightPlan& plan, bool draft) { builder_.setPlan(plan, draft); }
   /// Asks for a picture of this state; skipped while the last one is being drawn. The first call starts the
   /// render thread.
   void show(const EngineSnapshot& snapshot);
   void look(SceneViewpoint viewpoint);
+  /// Through a camera, from where it is believed to stand, as it sees.
+  void lookThrough(CameraId camera);
+  /// Where a waypoint is in the picture that is shown now.
+  std::optional<QPointF> waypointPosition(int index) const;
 
+  /// The eye and what it sees, of the last frame asked for.
+  const SceneFrame& lastFrame() const { return last_frame_; }
   double renderMilliseconds() const { return shown_.milliseconds; }
   int renderedFrames() const { return rendered_; }
+
+ Q_SIGNALS:
+  /// A waypoint was dragged to here, relative to where the helicopter stands on the pad.
+  void waypointDragged(int index, const Eigen::Vector3d& position_above_pad);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
 
  private:
+  void setEye(SceneFrame& frame);
+  void dragWaypoint(const QMouseEvent& event);
   void paintLabels(QPainter& painter) const;
   void paintUnknownCameras(QPainter& painter) const;
 
   const RigConfig& rig_;
-  FlightPlan plan_;
   SceneFrameBuilder builder_;
   OrbitView orbit_;
   std::unique_ptr<SceneThread> renderer_;
   RenderedScene shown_;
   std::vector<bool> pose_known_;  ///< per camera
   int rendered_ = 0;
+  SceneFrame last_frame_;
+  int through_ = -1;         ///< the camera that is looked through
+  int meant_waypoint_ = -1;  ///< under the mouse
+  int dragged_waypoint_ = -1;
+  double pad_height_ = 0.0;
   QPoint drag_from_;
 };
 

@@ -106,6 +106,10 @@ void TickHistory::addCamera(const EngineSnapshot& tick, int camera) {
     if (state.track.markers[static_cast<std::size_t>(m)].selected) selected |= 1U << m;
   set(camera, CameraColumn::kSelected, selected);
   set(camera, CameraColumn::kCovered, state.hidden || state.boards > 0 ? 1.0 : 0.0);
+  set(camera, CameraColumn::kTampered, state.lost_share > 0.0 || state.noise > 0.0 ? 1.0 : 0.0);
+  std::uint64_t& frames = frames_[static_cast<std::size_t>(camera)];
+  set(camera, CameraColumn::kLatency, state.frames > frames ? 1e3 * toSeconds(state.latency) : kNothing);
+  frames = state.frames;
   set(camera, CameraColumn::kKnocks, state.knocks);
   set(camera, CameraColumn::kStatus, static_cast<double>(state.estimate.status));
 }

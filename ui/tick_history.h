@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,6 +43,8 @@ enum class CameraColumn {
   kResidual,          ///< px
   kSelected,          ///< bits of the markers used for the pose
   kCovered,           ///< 1 while hidden or behind a board
+  kTampered,          ///< 1 while the operator loses its frames or makes them noisy
+  kLatency,           ///< ms, of a frame that is new at this tick
   kKnocks,            ///< so far
   kStatus,            ///< a CameraStatus
   kCount
@@ -86,6 +89,7 @@ class TickHistory {
   int cameras_;
   std::int64_t end_ = 0;
   double yaw_deg_ = 0.0;  ///< unwrapped
+  std::array<std::uint64_t, kMaxCameras> frames_{};
   std::vector<double> times_;
   std::vector<float> values_;  ///< column by column
 };

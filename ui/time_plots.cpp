@@ -4,10 +4,8 @@
 
 #include <QContextMenuEvent>
 #include <QFile>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
-#include <QMessageBox>
 #include <QTextStream>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include <limits>
 
 #include "ui/format.h"
+#include "ui/open_dialog.h"
 #include "ui/theme.h"
 
 namespace helical {
@@ -25,14 +24,18 @@ constexpr std::int64_t kShownPoints = 1800;  // per line: about one a pixel
 constexpr double kZoomPerStep = 0.85;
 constexpr double kLowestLogarithm = 1e-4;
 
-void styleAxis(QCPAxis* axis) {
+void colourAxis(QCPAxis* axis) {
   axis->setBasePen(QPen(theme::kLine));
+  axis->setTickLabelColor(theme::kMuted);
+  axis->grid()->setPen(QPen(theme::kGrid, 1));
+  axis->grid()->setZeroLinePen(QPen(theme::kLine, 1));
+}
+
+void styleAxis(QCPAxis* axis) {
+  colourAxis(axis);
   axis->setTickPen(Qt::NoPen);
   axis->setSubTickPen(Qt::NoPen);
   axis->setTickLabelFont(theme::monoFont(7.4));
-  axis->setTickLabelColor(theme::kMuted);
-  axis->grid()->setPen(QPen(theme::kGrid, 1));
-  axis->grid()->setZeroLinePen(QPen(theme::kLine.lighter(125), 1));
   axis->setTickLabelPadding(5);
 }
 
@@ -132,7 +135,9 @@ class TimePlots::HeadingItem : public QCPAbstractItem {
     const bool moment = span.end <= span.begin;
     if (moment ? left + width > rect.right() : width > right - left) return;
     const QRectF box(left + 3, rect.bottom() - 15, width, 13);
-    painter.fillRect(box, QColor(16, 21, 28, 215));
+    QColor ground = theme::kPanel;
+    ground.setAlpha(215);
+    painter.fillRect(box, ground);
     painter.setPen(span.color);
     painter.drawText(box, Qt::AlignCenter, span.text);
   }
@@ -219,6 +224,25 @@ void TimePlots::styleValueAxis(Lane& lane) {
                                                             : lane.description.decimals);
     value->ticker()->setTickCount(3);
   }
+}
+
+void TimePlots::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) takeTheme();
+}
+
+void TimePlots::takeTheme() {
+  plot_->setBackground(theme::kPanel);
+  for (Lane& lane : lanes_) {
+    for (const auto type : {QCPAxis::atBottom, QCPAxis::atLeft}) colourAxis(lane.rect->axis(type));
+    for (std::size_t i = 0; i < lane.graphs.size(); ++i) {
+      PlotSeries& series = lane.description.series[i];
+      series.color = theme::translated(series.color);
+      QPen pen = lane.graphs[i]->pen();
+      pen.setColor(series.color);
+      lane.graphs[i]->setPen(pen);
+    }
+  }
+  plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
 double TimePlots::valueOf(const PlotSeries& series, std::int64_t row) const {
@@ -309,6 +333,7 @@ void TimePlots::findSpans(std::int64_t begin, std::int64_t end, std::int64_t ste
     const QString name = QString::fromStdString(rig_.cameras[static_cast<std::size_t>(camera)].name);
     const QColor color = theme::cameraColor(camera);
     scan(history_.column(camera, CameraColumn::kCovered), color, tr("%1 covered").arg(name));
+    scan(history_.column(camera, CameraColumn::kTampered), color, tr("%1 disturbed").arg(name));
     const int knocks = history_.column(camera, CameraColumn::kKnocks);
     for (std::int64_t row = begin + step; row < end; row += step)
       if (history_.value(row, knocks) > history_.value(row - step, knocks))
@@ -393,12 +418,13 @@ void TimePlots::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 void TimePlots::askAndSave(const QString& suffix) {
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Save the plots"), QStringLiteral("helical-%1.%2").arg(page_.name.toLower(), suffix),
-      QStringLiteral("*.%1").arg(suffix));
-  if (path.isEmpty() || save(path)) return;
-  QMessageBox::warning(this, tr("Save the plots"),
-                       tr("%1 cannot be written. Choose another folder.").arg(path));
+  const auto save_to = [this](const QString& path) {
+    if (!save(path))
+      openNotice(this, tr("Save the plots"), tr("%1 cannot be written. Choose another folder.").arg(path));
+  };
+  askWhereToSave(this, tr("Save the plots"),
+                 QStringLiteral("helical-%1.%2").arg(page_.name.toLower(), suffix),
+                 QStringLiteral("*.%1").arg(suffix), save_to);
 }
 
 bool TimePlots::save(const QString& path) {

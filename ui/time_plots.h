@@ -47,6 +47,7 @@ class TimePlots : public QWidget {
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   class SpanItem;
@@ -59,6 +60,7 @@ class TimePlots : public QWidget {
 
   void addLane(std::size_t index);
   void styleValueAxis(Lane& lane);
+  void takeTheme();
   void fill(Lane& lane, std::int64_t begin, std::int64_t end, std::int64_t step);
   void fitRange(Lane& lane);
   void fitLogarithm(Lane& lane);

@@ -107,6 +107,10 @@ constexpr OptionField<ControllerOptions> kControllerFields[] = {
     {"ground_yaw_d", &ControllerOptions::ground_yaw_d},
     {"ground_yaw_i", &ControllerOptions::ground_yaw_i},
     {"output_delay_s", &ControllerOptions::output_delay_s},
+    {"trim_upper", &ControllerOptions::trim_upper},
+    {"trim_lower", &ControllerOptions::trim_lower},
+    {"trim_roll", &ControllerOptions::trim_roll},
+    {"trim_pitch", &ControllerOptions::trim_pitch},
 };
 
 constexpr OptionField<SupervisorOptions> kSupervisorFields[] = {

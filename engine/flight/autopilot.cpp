@@ -38,13 +38,20 @@ constexpr double kStillTime = 1.5;             // s: what no longer sinks has la
 
 Autopilot::Autopilot(const FlightPlan& plan, const ControllerOptions& control,
                      const SupervisorOptions& safety, const HelicopterParameters& nominal)
-    : plan_(plan),
-      control_(control),
+    : control_(control),
       safety_options_(safety),
       controller_(control, nominal),
       follower_(plan),
       standing_height_(nominal.standing_height),
       pad_height_(nominal.standing_height) {}
+
+void Autopilot::setControl(const ControllerOptions& control) {
+  const ControllerOptions before = control_;
+  control_ = control;
+  control_.rate_hz = before.rate_hz;
+  control_.output_delay_s = before.output_delay_s;
+  controller_.setOptions(control_);
+}
 
 double Autopilot::flightTime(TimeNs now) const {
   return phase_ == FlightPhase::kIdle ? 0.0 : toSeconds(now - started_);
@@ -155,8 +162,9 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
       }
       return;
     case FlightPhase::kFlying: {
-      const bool time_to_land = plan_.land_at_s > 0.0 && flightTime(input.now) >= plan_.land_at_s;
-      const bool done = time_to_land || (plan_.land_at_s <= 0.0 && follower_.finished());
+      const FlightPlan& plan = follower_.plan();
+      const bool time_to_land = plan.land_at_s > 0.0 && flightTime(input.now) >= plan.land_at_s;
+      const bool done = time_to_land || (plan.land_at_s <= 0.0 && follower_.finished());
       if (ordered) follower_.resetTo(input.state.world_from_body.translation);
       if (ordered || (done && !holding_)) enter(FlightPhase::kLanding, input.now);
       return;
@@ -187,7 +195,7 @@ void Autopilot::awaitStart(const AutopilotInput& input) {
     refusal_ = obstacle != nullptr ? obstacle : "it is not armed";
     return;
   }
-  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < plan_.start_delay_s) return;
+  if (obstacle != nullptr || toSeconds(input.now - seen_since_) < follower_.plan().start_delay_s) return;
   take_off_pending_ = false;
   started_ = input.now;
   controller_.reset();

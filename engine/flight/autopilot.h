@@ -46,6 +46,11 @@ class Autopilot {
 
   AutopilotOutput step(const AutopilotInput& input);
 
+  /// The operator's changes between two steps: as PlanFollower::swapPlan has it, and gains and trims; rate
+  /// and output delay stay.
+  void swapPlan(FlightPlan& plan) { follower_.swapPlan(plan); }
+  void setControl(const ControllerOptions& control);
+
  private:
   SupervisorConditions conditions(const AutopilotInput& input, double height) const;
   void obey(const OperatorCommands& commands);
@@ -59,7 +64,6 @@ class Autopilot {
   bool hasTouchedDown(const AutopilotInput& input, double height);
   double flightTime(TimeNs now) const;
 
-  FlightPlan plan_;
   ControllerOptions control_;
   SupervisorOptions safety_options_;
   Controller controller_;

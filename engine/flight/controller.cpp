@@ -123,10 +123,12 @@ StickDemand Controller::mix(double thrust, double yaw, const Eigen::Vector2d& sw
   const Eigen::Vector2d turned = Eigen::Rotation2Dd(options_.phase) * swash_in_body;
   const Eigen::Vector2d swash = turned / std::max(1.0, turned.norm());
   StickDemand demand;
-  demand.upper_rotor = std::clamp(base_ * trim_upper_ + upper, 0.0, 1.0);
-  demand.lower_rotor = std::clamp(base_ * trim_lower_ + lower, 0.0, 1.0);
-  demand.roll = -swash.y();
-  demand.pitch = swash.x();
+  // The operator's trims fade in with the throttle: standing rotors stay standing.
+  const double throttle = std::clamp(base_, 0.0, 1.0);
+  demand.upper_rotor = std::clamp(base_ * trim_upper_ + upper + throttle * options_.trim_upper, 0.0, 1.0);
+  demand.lower_rotor = std::clamp(base_ * trim_lower_ + lower + throttle * options_.trim_lower, 0.0, 1.0);
+  demand.roll = std::clamp(options_.trim_roll - swash.y(), -1.0, 1.0);
+  demand.pitch = std::clamp(options_.trim_pitch + swash.x(), -1.0, 1.0);
   return demand;
 }
 

@@ -21,6 +21,9 @@ class Controller {
   /// Forgets what it has integrated.
   void reset();
 
+  /// Other gains and trims from now on; what it has integrated stays.
+  void setOptions(const ControllerOptions& options) { options_ = options; }
+
   /// Throttle of both rotors as a fraction of hover trim, while it stands on the skids; keeps the heading's
   /// rate at zero and learns the yaw trim on the way. Swash plate: damping only.
   StickDemand onGround(const HelicopterState& state, double throttle, double dt);

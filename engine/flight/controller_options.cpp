@@ -7,6 +7,35 @@
 #include "engine/base/error.h"
 
 namespace helical {
+namespace {
+
+using O = ControllerOptions;
+constexpr ControllerKey kKeys[] = {
+    {"position_p", &O::position_p, 0.6, 3.0, "1/m"},
+    {"position_d", &O::position_d, 1.0, 3.2, "s/m"},
+    {"position_i", &O::position_i, 0.0, 1.2, "1/(m s)"},
+    {"position_i_limit", &O::position_i_limit, 0.0, 0.6, ""},
+    {"position_error_limit", &O::position_error_limit, 0.1, 1.0, "m"},
+    {"tilt", &O::tilt, 1.0, 3.0, "1/rad"},
+    {"phase", &O::phase, -0.3, 0.6, "rad"},
+    {"height_p", &O::height_p, 0.08, 0.4, "1/m"},
+    {"height_d", &O::height_d, 0.06, 0.25, "s/m"},
+    {"height_i", &O::height_i, 0.0, 0.3, "1/(m s)"},
+    {"yaw_p", &O::yaw_p, 0.4, 3.0, "1/s"},
+    {"yaw_rate_limit", &O::yaw_rate_limit, 0.2, 1.6, "rad/s"},
+    {"yaw_d", &O::yaw_d, 0.002, 0.015, "s/rad"},
+    {"yaw_i", &O::yaw_i, 0.0, 0.02, "1/rad"},
+    {"trim_upper", &O::trim_upper, -0.1, 0.1, ""},
+    {"trim_lower", &O::trim_lower, -0.1, 0.1, ""},
+    {"trim_roll", &O::trim_roll, -0.2, 0.2, ""},
+    {"trim_pitch", &O::trim_pitch, -0.2, 0.2, ""},
+};
+
+}  // namespace
+
+std::span<const ControllerKey> controllerKeys() {
+  return kKeys;
+}
 
 void validate(const ControllerOptions& o) {
   const std::pair<const char*, double> gains[] = {{"position_p", o.position_p},
@@ -28,6 +57,14 @@ void validate(const ControllerOptions& o) {
   for (const auto& [key, value] : gains)
     if (!(value >= 0.0) || !std::isfinite(value))
       throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {}, "give 0 or more");
+  const std::pair<const char*, double> trims[] = {{"trim_upper", o.trim_upper},
+                                                  {"trim_lower", o.trim_lower},
+                                                  {"trim_roll", o.trim_roll},
+                                                  {"trim_pitch", o.trim_pitch}};
+  for (const auto& [key, value] : trims)
+    if (!(std::abs(value) <= 0.5))
+      throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
+                  "give -0.5 to 0.5");
   if (!(o.rate_hz >= 20.0 && o.rate_hz <= 500.0))
     throw Error(ErrorKind::kInput, "rate_hz is " + std::to_string(o.rate_hz), {}, "give 20 to 500 Hz");
   if (!(std::abs(o.phase) <= 1.5))

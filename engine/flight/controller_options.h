@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 namespace helical {
 
 /// Gains of the four-channel controller. Swash plate in fractions of full stick, rotors in fractions 0..1.
@@ -24,7 +26,23 @@ struct ControllerOptions {
   double ground_yaw_d = 0.010;        ///< per rad/s: the same two on the skids, whose friction helps
   double ground_yaw_i = 0.02;         ///< per rad
   double output_delay_s = 0.023;      ///< from the control tick until the sticks act: transmitter and servo
+  double trim_upper = 0.0;            ///< added to what the controller sends: rotor fraction
+  double trim_lower = 0.0;            ///< rotor fraction
+  double trim_roll = 0.0;             ///< fraction of full stick
+  double trim_pitch = 0.0;            ///< fraction of full stick
 };
+
+/// One gain or trim that may be changed in flight, and how far that is safe: within it every flight of the
+/// simulated XRB with parameters as drawn stays in the air, if not still.
+struct ControllerKey {
+  const char* name;
+  double ControllerOptions::*value;
+  double lowest;
+  double highest;
+  const char* unit;
+};
+/// In the order in which an operator thinks of them.
+std::span<const ControllerKey> controllerKeys();
 
 /// Throws Error(kInput) naming the offending key.
 void validate(const ControllerOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/geometry/rotation.h"
 
@@ -17,6 +18,17 @@ constexpr double kBelowGround = -0.15;  // m: the reference's end when landing
 }  // namespace
 
 PlanFollower::PlanFollower(const FlightPlan& plan) : plan_(plan) {}
+
+void PlanFollower::swapPlan(FlightPlan& plan) {
+  const Waypoint before = plan_.waypoints[waypoint_];
+  const bool had_more = waypoint_ < plan.waypoints.size();
+  std::swap(plan_, plan);
+  waypoint_ = std::min(waypoint_, plan_.waypoints.size() - 1);
+  const Waypoint& now = plan_.waypoints[waypoint_];
+  const bool same = had_more && now.position_above_pad == before.position_above_pad && now.yaw == before.yaw;
+  if (!same) held_s_ = 0.0;
+  finished_ = false;
+}
 
 void PlanFollower::start(const SetPoint& here, double pad_height) {
   set_point_ = here;

@@ -12,6 +12,11 @@ class PlanFollower {
  public:
   explicit PlanFollower(const FlightPlan& plan);
 
+  /// Another plan from now on, swapped so that nothing is allocated. It is flown on from the waypoint of the
+  /// same number, or the last one; a waypoint that is the same as before is not held anew.
+  void swapPlan(FlightPlan& plan);
+  const FlightPlan& plan() const { return plan_; }
+
   /// Starts at lift-off from where the helicopter is; `pad_height` is the body's origin standing on the pad.
   void start(const SetPoint& here, double pad_height);
 

@@ -25,7 +25,7 @@ bool ExtractingSource::poll(Observation& observation) {
   if (orders_) orders_->carryOut(extractor_);
   extractor_.extract(frame.image, observation);
   if (lens_) moveToBallCentres(*lens_, observation);
-  if (on_frame_) on_frame_(frame, observation);
+  if (on_frame_) on_frame_(frame, observation, extractor_);
   return true;
 }
 

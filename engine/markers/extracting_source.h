@@ -13,8 +13,9 @@ namespace helical {
 /// A camera with its extractor: an ObservationSource that runs on the camera's capture thread.
 class ExtractingSource final : public ObservationSource {
  public:
-  /// `on_frame`, if given, sees every frame with what was found in it (for display), on the capture thread.
-  using FrameTap = std::function<void(const Frame&, const Observation&)>;
+  /// `on_frame`, if given, sees every frame with what was found in it and by what (for display), on the
+  /// capture thread.
+  using FrameTap = std::function<void(const Frame&, const Observation&, const Extractor&)>;
 
   /// `orders`, if given, are carried out from frame to frame. With a `lens`, centroids are where the balls'
   /// centres are seen, not the centres of their outlines.

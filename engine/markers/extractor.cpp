@@ -154,6 +154,9 @@ void Extractor::disableBackground() {
 bool Extractor::hasBackground() const {
   return workspace_->background.state() == BackgroundModel::State::kReady;
 }
+ImageView Extractor::background() const {
+  return workspace_->background.view();
+}
 
 void Extractor::setIgnoredAreas(const IgnoredAreas& areas) {
   workspace_->ignored_areas = areas;

@@ -31,6 +31,8 @@ class Extractor {
   /// Works without background difference: colour alone.
   void disableBackground();
   bool hasBackground() const;
+  /// The averaged or given background, rows packed; only while there is one.
+  ImageView background() const;
 
   /// From the next frame on nothing is looked for there. Allocates.
   void setIgnoredAreas(const IgnoredAreas& areas);

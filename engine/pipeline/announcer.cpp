@@ -84,6 +84,7 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   announceRecord(now, raise);
   if (now.gust_ordered && !gust_blew_) raise(event(now.time, Severity::kInfo, "A gust"));
   gust_blew_ = now.gust_ordered;
+  announceChanges(now, raise);
   if (now.phase != phase_) raise(event(now.time, Severity::kInfo, phaseText(now.phase)));
   announceArming(now, raise);
   announceSafety(now, raise);
@@ -152,6 +153,18 @@ void Announcer::announceLink(const EngineSnapshot& now, std::size_t camera, cons
   }
 }
 
+void Announcer::announceChanges(const EngineSnapshot& now, const Sink& raise) {
+  const Changes changes{now.plans, now.controls, now.colours, now.cameras[0].backgrounds};
+  const auto raise_if = [&](bool changed, const char* text) {
+    if (changed) raise(event(now.time, Severity::kInfo, text));
+  };
+  raise_if(changes.plans != changes_.plans, "The plan is changed");
+  raise_if(changes.controls != changes_.controls, "Gains and trims are changed");
+  raise_if(changes.colours != changes_.colours, "The markers' colour is changed");
+  raise_if(changes.backgrounds != changes_.backgrounds, "The cameras take a new background");
+  changes_ = changes;
+}
+
 void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise) {
   const CameraSnapshot& state = now.cameras[camera];
   Camera& before = cameras_[camera];
@@ -162,6 +175,10 @@ void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, co
   raise_if(!state.hidden && before.hidden, Severity::kInfo, "shown again");
   raise_if(state.boards > before.boards, Severity::kCaution, "a white board is held before it");
   raise_if(state.boards < before.boards, Severity::kInfo, "a white board is taken away");
+  raise_if(state.lost_share > before.lost_share, Severity::kCaution, "loses frames by order");
+  raise_if(state.lost_share < before.lost_share, Severity::kInfo, "loses fewer frames by order");
+  raise_if(state.noise > before.noise, Severity::kCaution, "gets noise by order");
+  raise_if(state.noise < before.noise, Severity::kInfo, "gets less noise by order");
   raise_if(state.knocks != before.knocks, Severity::kCaution, "knocked by the operator");
   const CameraStatus status = state.estimate.status;
   if (status != before.status && now.tick > 1) {
@@ -171,7 +188,7 @@ void Announcer::announceCamera(const EngineSnapshot& now, std::size_t camera, co
              Severity::kCaution, "out of the control set, calibrating");
   }
   if (state.link != before.link) announceLink(now, camera, raise);
-  before = {status, state.hidden, state.boards, state.knocks, state.link};
+  before = {status, state.hidden, state.boards, state.knocks, state.link, state.lost_share, state.noise};
 }
 
 }  // namespace helical

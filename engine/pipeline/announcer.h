@@ -34,11 +34,20 @@ class Announcer {
     int boards = 0;
     std::uint32_t knocks = 0;
     LinkState link = LinkState::kAlways;
+    double lost_share = 0.0;
+    double noise = 0.0;
+  };
+  struct Changes {
+    std::uint32_t plans = 0;
+    std::uint32_t controls = 0;
+    std::uint32_t colours = 0;
+    std::uint32_t backgrounds = 0;
   };
   void announceRecord(const EngineSnapshot& now, const Sink& raise);
   void announceArming(const EngineSnapshot& now, const Sink& raise);
   void announceSafety(const EngineSnapshot& now, const Sink& raise);
   void announceLink(const EngineSnapshot& now, std::size_t camera, const Sink& raise) const;
+  void announceChanges(const EngineSnapshot& now, const Sink& raise);
   void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
 
   std::vector<std::string> names_;
@@ -53,6 +62,7 @@ class Announcer {
   bool gust_blew_ = false;
   RecordHealth record_;
   std::array<Camera, kMaxCameras> cameras_{};
+  Changes changes_;
 };
 
 }  // namespace helical

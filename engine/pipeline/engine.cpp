@@ -13,6 +13,7 @@
 #include "engine/base/spsc_queue.h"
 #include "engine/cameras/demosaic.h"
 #include "engine/config/calibration_file.h"
+#include "engine/markers/marker_colours.h"
 #include "engine/pipeline/announcer.h"
 #include "engine/pipeline/calibration_record.h"
 #include "engine/pipeline/calibration_view.h"
@@ -28,6 +29,7 @@ namespace {
 constexpr TimeNs kOutputPeriod = 5 * kNanosecondsPerMillisecond;
 constexpr TimeNs kPicturePeriod = 33 * kNanosecondsPerMillisecond;
 constexpr TimeNs kLongestWait = 20 * kNanosecondsPerMillisecond;
+constexpr double kFieldClear = 1.0;  // s, for a background of simulated cameras
 
 using ObservationQueue = SpscQueue<Observation, 16>;
 
@@ -43,10 +45,17 @@ struct NewCalibration {
   std::uint64_t seed;
 };
 
+/// On its way to the flight thread, with a copy of the plan that is swapped for the old one.
+struct PendingChange {
+  std::shared_ptr<const FlightChange> change;
+  FlightPlan plan;
+};
+
 /// A copy of a capture thread's frames at display rate.
 class PictureTap {
  public:
-  void take(const Frame& frame, const Observation& observation) {
+  void take(const Frame& frame, const Observation& observation, const Extractor& extractor) {
+    keepBackground(extractor);
     if (last_ >= 0 && frame.arrival - last_ < kPicturePeriod) return;
     last_ = frame.arrival;
     CameraPicture& picture = pictures_.back();
@@ -55,13 +64,26 @@ class PictureTap {
     picture.width = frame.image.width;
     picture.height = frame.image.height;
     picture.observation = observation;
+    picture.background = background_;
     toBgr(frame.image, picture.bgr);
     pictures_.publish();
   }
   LatestValue<CameraPicture>& pictures() { return pictures_; }
 
  private:
+  /// A copy once after each change, shared by the pictures.
+  void keepBackground(const Extractor& extractor) {
+    if (!extractor.hasBackground()) {
+      background_.reset();
+      return;
+    }
+    if (background_) return;
+    auto copy = std::make_shared<std::vector<std::uint8_t>>();
+    toBgr(extractor.background(), *copy);
+    background_ = std::move(copy);
+  }
   LatestValue<CameraPicture> pictures_;
+  std::shared_ptr<const std::vector<std::uint8_t>> background_;
   TimeNs last_ = -1;
 };
 
@@ -72,15 +94,18 @@ struct Engine::Implementation {
       : rig(rig_config),
         plan(flight_plan),
         clock(std::make_shared<MonotonicClock>()),
-        hardware(openRig(rig, clock,
-                         [this](const Frame& frame, const Observation& observation) {
-                           taps[static_cast<std::size_t>(frame.camera.index())].take(frame, observation);
-                           if (tap != nullptr) tap->onFrame(frame, observation);
-                         },
-                         plan.carried_s)),
+        hardware(openRig(
+            rig, clock,
+            [this](const Frame& frame, const Observation& observation, const Extractor& extractor) {
+              taps[static_cast<std::size_t>(frame.camera.index())].take(frame, observation, extractor);
+              if (tap != nullptr) tap->onFrame(frame, observation);
+            },
+            plan.carried_s)),
         loop(rig, plan),
         output(*hardware.transmitter),
         calibrator(rig.calibrator),
+        control(rig.control),
+        colour(rig.marker_options),
         tap(flight_tap),
         announcer(rig) {
     for (std::size_t i = 0; i < hardware.sources.size(); ++i)
@@ -95,9 +120,11 @@ struct Engine::Implementation {
   void tick(TimeNs now);
   void takeCalibrations(TimeNs now);
   void obeyCalibrationOrders(TimeNs now);
+  void takeChange(TimeNs now);
   void showCalibrations(std::uint64_t tick, TimeNs now);
   void addOrders(EngineSnapshot& snapshot) const;
   void measureRate(EngineSnapshot& snapshot);
+  void tamper(std::size_t camera);
   void replaceCalibration(std::size_t camera, const std::string& method);
   void raise(const EngineEvent& event) {
     lost += !events->push(event);
@@ -105,7 +132,7 @@ struct Engine::Implementation {
   }
 
   const RigConfig rig;
-  const FlightPlan plan;
+  FlightPlan plan;  ///< reading thread, after the start
   std::shared_ptr<MonotonicClock> clock;
   std::array<PictureTap, kMaxCameras> taps;
   RigHardware hardware;
@@ -125,6 +152,10 @@ struct Engine::Implementation {
   std::atomic<bool> land{false};
   std::array<std::atomic<bool>, kMaxCameras> hidden{};
   std::array<std::atomic<int>, kMaxCameras> boards{};  ///< how many; the capture threads have the boards
+  std::array<std::atomic<double>, kMaxCameras> lost_share{};
+  std::array<std::atomic<double>, kMaxCameras> noise{};
+  std::atomic<std::uint32_t> colours{0};
+  std::atomic<std::uint32_t> backgrounds{0};
   std::array<std::atomic<std::uint32_t>, kMaxCameras> knocks{};
   std::atomic<TimeNs> gust_until{-1};
   std::array<HandOver<NewCalibration>, kMaxCameras> new_calibrations;
@@ -132,6 +163,12 @@ struct Engine::Implementation {
   SpscQueue<CalibrationOrder, 128> calibration_orders;
   std::string calibrator;               ///< reading thread
   std::uint64_t calibrations_made = 0;  ///< reading thread
+  HandOver<PendingChange> new_change;
+  // Reading thread.
+  ControllerOptions control;
+  ColourRange colour;
+  std::array<Tampering, kMaxCameras> tampering{};
+  std::vector<std::shared_ptr<const FlightChange>> changes;  ///< all: nobody else frees one
 
   LatestValue<EngineSnapshot> newest;
   std::unique_ptr<SpscQueue<EngineSnapshot, 256>> tick_queue =
@@ -198,6 +235,7 @@ void Engine::Implementation::tick(TimeNs now) {
   commands.land = land.exchange(false);
   commands.kill = output.stopped();
   takeCalibrations(now);
+  takeChange(now);
   obeyCalibrationOrders(now);
   DeviceStatus devices;
   devices.transmitter = output.transmitterStatus();
@@ -234,6 +272,15 @@ void Engine::Implementation::takeCalibrations(TimeNs now) {
   }
 }
 
+void Engine::Implementation::takeChange(TimeNs now) {
+  std::unique_ptr<PendingChange> pending = new_change.take();
+  if (!pending) return;
+  if (pending->change->plan) loop.swapPlan(pending->plan);
+  if (pending->change->control) loop.setControl(*pending->change->control);
+  if (tap != nullptr) tap->onChange(pending->change, now);
+  new_change.giveBack(std::move(pending));
+}
+
 void Engine::Implementation::obeyCalibrationOrders(TimeNs now) {
   CalibrationOrder order;
   while (calibration_orders.pop(order)) {
@@ -261,9 +308,13 @@ void Engine::Implementation::showCalibrations(std::uint64_t tick, TimeNs now) {
 
 void Engine::Implementation::addOrders(EngineSnapshot& snapshot) const {
   snapshot.gust_ordered = snapshot.time < gust_until.load(std::memory_order_relaxed);
+  snapshot.colours = colours.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     snapshot.cameras[i].boards = boards[i].load(std::memory_order_relaxed);
     snapshot.cameras[i].knocks = knocks[i].load(std::memory_order_relaxed);
+    snapshot.cameras[i].lost_share = lost_share[i].load(std::memory_order_relaxed);
+    snapshot.cameras[i].noise = noise[i].load(std::memory_order_relaxed);
+    snapshot.cameras[i].backgrounds = backgrounds.load(std::memory_order_relaxed);
     const CameraCalibration* calibration = loop.calibration(cameraId(static_cast<int>(i)));
     if (calibration != nullptr)
       snapshot.cameras[i].effective_sample_size = calibration->calibrator().effectiveSampleSize();
@@ -279,6 +330,12 @@ void Engine::Implementation::measureRate(EngineSnapshot& snapshot) {
     ticks_then = snapshot.tick;
   }
   if (ticks_per_second > 0.0) snapshot.ticks_per_second = ticks_per_second;
+}
+
+void Engine::Implementation::tamper(std::size_t camera) {
+  TamperingChannel& channel = *hardware.tampering[camera];
+  channel.back() = tampering[camera];
+  channel.publish();
 }
 
 void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {
@@ -327,6 +384,9 @@ const RigConfig& Engine::rig() const {
 }
 const FlightPlan& Engine::plan() const {
   return implementation_->plan;
+}
+const ControllerOptions& Engine::control() const {
+  return implementation_->control;
 }
 bool Engine::running() const {
   return !implementation_->threads.empty();
@@ -388,23 +448,74 @@ void Engine::gust(const Eigen::Vector3d& wind_in_world, double duration_s) {
 
 void Engine::setBoards(CameraId camera, const WhiteBoards& boards) {
   const auto index = static_cast<std::size_t>(camera.index());
-  WhiteBoardsChannel& channel = *implementation_->hardware.boards[index];
-  channel.back() = boards;
-  channel.publish();
+  implementation_->tampering[index].boards = boards;
   implementation_->boards[index] = boards.count;
+  implementation_->tamper(index);
+}
+
+void Engine::loseFrames(CameraId camera, double share) {
+  const auto index = static_cast<std::size_t>(camera.index());
+  implementation_->tampering[index].lost_share = share;
+  implementation_->lost_share[index] = share;
+  implementation_->tamper(index);
+}
+
+void Engine::addNoise(CameraId camera, double grey_levels, double px) {
+  const auto index = static_cast<std::size_t>(camera.index());
+  implementation_->tampering[index].noise_grey = grey_levels;
+  implementation_->tampering[index].noise_px = px;
+  implementation_->noise[index] = implementation_->rig.simulation.images ? grey_levels : px;
+  implementation_->tamper(index);
+}
+
+void Engine::setMarkerColour(const ColourRange& colour) {
+  Implementation& i = *implementation_;
+  MarkerOptions options = i.rig.marker_options;
+  static_cast<ColourRange&>(options) = colour;
+  validate(options);
+  std::vector<ColourRange> colours = i.rig.marker_options.other_colours;
+  colours.insert(colours.begin(), colour);
+  // Builds the tables, so that no capture thread has to.
+  const MarkerColours built(std::move(colours));
+  for (const auto& orders : i.hardware.orders) orders->seek(built);
+  i.colour = colour;
+  ++i.colours;
+}
+
+const ColourRange& Engine::markerColour() const {
+  return implementation_->colour;
+}
+
+void Engine::takeBackground() {
+  Implementation& i = *implementation_;
+  const FlightPhase phase = snapshot().phase;
+  if (phase != FlightPhase::kIdle && phase != FlightPhase::kOff)
+    throw Error(ErrorKind::kInput, "no new background while the rotors turn", {}, "land first");
+  if (i.hardware.world && i.rig.simulation.images) i.hardware.world->clearField(kFieldClear);
+  for (const auto& orders : i.hardware.orders) orders->takeBackground();
+  ++i.backgrounds;
+}
+
+void Engine::change(const FlightChange& change) {
+  Implementation& i = *implementation_;
+  validate(change);
+  // An earlier change that the flight thread has not taken yet becomes part of this one.
+  i.plan = change.plan.value_or(i.plan);
+  i.control = change.control.value_or(i.control);
+  auto pending = std::make_unique<PendingChange>();
+  FlightChange ordered = change;
+  if (!i.changes.empty() && !i.new_change.taken()) {
+    if (i.changes.back()->plan) ordered.plan = i.plan;
+    if (i.changes.back()->control) ordered.control = i.control;
+  }
+  pending->change = std::make_shared<const FlightChange>(std::move(ordered));
+  pending->plan = i.plan;
+  i.changes.push_back(pending->change);
+  i.new_change.offer(std::move(pending));
 }
 
 void Engine::setIgnoredAreas(CameraId camera, const IgnoredAreas& areas) {
   implementation_->hardware.orders[static_cast<std::size_t>(camera.index())]->ignore(areas);
-}
-
-void Engine::takeBackground(CameraId camera) {
-  implementation_->hardware.orders[static_cast<std::size_t>(camera.index())]->takeBackground();
-}
-
-void Engine::setMarkerColours(const std::vector<ColourRange>& colours) {
-  const MarkerColours built(colours);
-  for (const auto& orders : implementation_->hardware.orders) orders->seek(built);
 }
 
 void Engine::setCalibrator(const std::string& method) {
@@ -447,6 +558,7 @@ void Engine::adoptCalibration(const std::filesystem::path& file) {
 
 bool Engine::poll() {
   for (auto& calibration : implementation_->new_calibrations) calibration.collect();
+  implementation_->new_change.collect();
   return implementation_->newest.take();
 }
 const EngineSnapshot& Engine::snapshot() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/flight/flight_change.h"
 #include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/flight_view.h"
 #include "engine/pipeline/white_board.h"
@@ -25,7 +26,8 @@ class Engine final : public FlightView {
   Engine& operator=(const Engine&) = delete;
 
   const RigConfig& rig() const override;
-  const FlightPlan& plan() const override;
+  const FlightPlan& plan() const override;   ///< as last ordered
+  const ControllerOptions& control() const;  ///< as last ordered
 
   /// Once in the engine's life: after a stop the rotors stay off.
   void start();
@@ -47,13 +49,23 @@ class Engine final : public FlightView {
   /// Orders of the reading thread; wait-free for the engine.
   /// All boards before a camera from now on, for real cameras too: its frames show them.
   void setBoards(CameraId camera, const WhiteBoards& boards);
+  /// A share of a camera's frames (0 to 1) gets lost on the way from now on; noise is added to the others
+  /// (standard deviation in grey levels for images, in px to the centroids of sources without).
+  void loseFrames(CameraId camera, double share);
+  void addNoise(CameraId camera, double grey_levels, double px);
   /// No marker is looked for in these areas of a camera's image, in place of the rig file's.
   void setIgnoredAreas(CameraId camera, const IgnoredAreas& areas);
-  /// The field that this camera sees is empty now: that is its background.
-  void takeBackground(CameraId camera);
-  /// All cameras look for these colours, the base's first, in place of the rig file's. Throws Error(kInput)
-  /// for what is no range of colours. Takes a tenth of a second.
-  void setMarkerColours(const std::vector<ColourRange>& colours);
+  /// Every camera looks for markers of this colour from now on, beside the rig file's other ones. Throws
+  /// Error(kInput) for a range out of HSV. Takes some 100 ms.
+  void setMarkerColour(const ColourRange& colour);
+  const ColourRange& markerColour() const;
+  /// Each camera with images averages a new background of the field as it is now; until then it finds
+  /// nothing. Simulated rigs clear the field for as long. Throws Error(kInput) unless the rotors are off: a
+  /// helicopter in the background is not seen, and in flight there would be no pose for a moment.
+  void takeBackground();
+  /// Plan, gains and trims: all at one control tick. Throws Error(kInput) and changes nothing if `validate`
+  /// refuses.
+  void change(const FlightChange& change);
   /// Cameras that learn their pose start anew from their first guess with this method, and leave the control
   /// set until they are admitted again; the others will use it once they are knocked. Throws Error(kInput)
   /// for an unknown one.

@@ -53,6 +53,16 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   work_since_tick_ += stopwatch().now() - begin;
 }
 
+void FlightLoop::swapPlan(FlightPlan& plan) {
+  autopilot_.swapPlan(plan);
+  ++snapshot_.plans;
+}
+
+void FlightLoop::setControl(const ControllerOptions& control) {
+  autopilot_.setControl(control);
+  ++snapshot_.controls;
+}
+
 void FlightLoop::count(const Observation& observation, TimeNs now) {
   const auto index = static_cast<std::size_t>(observation.camera.index());
   CameraSnapshot& camera = snapshot_.cameras[index];

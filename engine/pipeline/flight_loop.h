@@ -29,6 +29,10 @@ class FlightLoop {
   /// The operator hides a camera: its observations count as frames, but nothing they show is used.
   void hideCamera(CameraId camera, bool hidden) { control_set_.hide(camera, hidden); }
 
+  /// The operator's changes between two ticks: see Autopilot.
+  void swapPlan(FlightPlan& plan);
+  void setControl(const ControllerOptions& control);
+
   /// As ControlSet has them.
   const char* orderCalibration(const CalibrationOrder& order) { return control_set_.obey(order); }
   void swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {

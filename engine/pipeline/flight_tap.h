@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "engine/cameras/frame.h"
 #include "engine/flight/autopilot.h"
+#include "engine/flight/flight_change.h"
 #include "engine/markers/observation.h"
 #include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/snapshot.h"
@@ -27,6 +29,9 @@ class FlightTap {
   virtual void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) = 0;
   /// The operator decided something about a camera's calibration.
   virtual void onCalibrationOrder(const CalibrationOrder& order, TimeNs now) = 0;
+  /// Plan, gains or trims are others from the next tick on. The engine keeps `change` as long as itself:
+  /// letting go of it frees nothing.
+  virtual void onChange(const std::shared_ptr<const FlightChange>& change, TimeNs now) = 0;
   virtual void onEvent(const EngineEvent& event) = 0;
 
   // What no flight depends on:

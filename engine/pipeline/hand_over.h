@@ -23,6 +23,8 @@ class HandOver {
     delete offered_.exchange(value.release(), std::memory_order_acq_rel);
     collect();
   }
+  /// Giver's thread: whether the last offer was taken.
+  bool taken() const { return offered_.load(std::memory_order_acquire) == nullptr; }
   /// Giver's thread: frees what came back. Until then the receiver takes nothing new.
   void collect() { delete returned_.exchange(nullptr, std::memory_order_acq_rel); }
 

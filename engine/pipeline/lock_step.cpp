@@ -22,7 +22,7 @@ LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
     : rig_(rig),
       clock_(std::make_shared<ManualClock>()),
       hardware_(openRig(simulatedOnly(rig), clock_,
-                        [tap](const Frame& frame, const Observation& observation) {
+                        [tap](const Frame& frame, const Observation& observation, const Extractor&) {
                           if (tap != nullptr) tap->onFrame(frame, observation);
                         },
                         plan.carried_s)),
@@ -74,6 +74,14 @@ void LockStep::use(const Observation& observation) {
   loop_.onObservation(observation, now);
   const auto camera = static_cast<std::size_t>(observation.camera.index());
   if (tap_ != nullptr) tap_->onObservation(observation, now, loop_.snapshot().cameras[camera].track);
+}
+
+void LockStep::change(const FlightChange& change) {
+  validate(change);
+  FlightChange applied = change;
+  if (applied.plan) loop_.swapPlan(*applied.plan);
+  if (applied.control) loop_.setControl(*applied.control);
+  if (tap_ != nullptr) tap_->onChange(std::make_shared<const FlightChange>(change), clock_->now());
 }
 
 void LockStep::hideCamera(CameraId camera, bool hidden) {

@@ -28,6 +28,8 @@ class LockStep {
   void calibrate(CameraId camera, const std::string& method, std::uint64_t seed);
   /// Null, or why it cannot be done.
   const char* orderCalibration(const CalibrationOrder& order);
+  /// Before the next tick. Throws Error(kInput) and changes nothing if `validate` refuses.
+  void change(const FlightChange& change);
 
  private:
   void use(const Observation& observation);

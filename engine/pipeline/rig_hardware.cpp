@@ -55,7 +55,7 @@ namespace {
 /// What every camera has, whatever it is.
 CameraId addCamera(RigHardware& hardware, const CameraConfig& camera) {
   const CameraId id = cameraId(static_cast<int>(hardware.sources.size()));
-  hardware.boards.push_back(std::make_shared<WhiteBoardsChannel>());
+  hardware.tampering.push_back(std::make_shared<TamperingChannel>());
   hardware.orders.push_back(std::make_shared<ExtractorOrders>());
   hardware.orders.back()->ignore(camera.ignored_areas);
   hardware.links.push_back(std::make_shared<CameraLink>());
@@ -66,8 +66,8 @@ CameraId addCamera(RigHardware& hardware, const CameraConfig& camera) {
 std::unique_ptr<ObservationSource> extracted(RigHardware& hardware, const RigConfig& rig,
                                              const CameraConfig& camera, std::unique_ptr<CameraSource> source,
                                              const ExtractingSource::FrameTap& tap) {
-  auto boarded = std::make_unique<BoardedCamera>(std::move(source), hardware.boards.back());
-  return std::make_unique<ExtractingSource>(std::move(boarded), rig.marker_options, tap, hardware.orders.back(),
+  auto tampered = std::make_unique<TamperedCamera>(std::move(source), hardware.tampering.back());
+  return std::make_unique<ExtractingSource>(std::move(tampered), rig.marker_options, tap, hardware.orders.back(),
                                             camera.model);
 }
 
@@ -87,8 +87,8 @@ void addSimulated(RigHardware& hardware, const RigConfig& rig, const CameraConfi
     auto source =
         std::make_unique<SimulatedObserver>(id, camera.model, truth, rig.markers_in_body, rig.marker_options,
                                             rig.simulation, hardware.world, clock);
-    auto boarded = std::make_unique<BoardedObserver>(std::move(source), hardware.boards.back());
-    hardware.sources.push_back(std::make_unique<IgnoringSource>(std::move(boarded), hardware.orders.back()));
+    auto tampered = std::make_unique<TamperedObserver>(std::move(source), hardware.tampering.back());
+    hardware.sources.push_back(std::make_unique<IgnoringSource>(std::move(tampered), hardware.orders.back()));
   }
 }
 

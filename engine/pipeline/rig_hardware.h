@@ -9,8 +9,8 @@
 #include "engine/cameras/camera_link.h"
 #include "engine/config/rig_config.h"
 #include "engine/markers/extracting_source.h"
-#include "engine/pipeline/boarded_sources.h"
 #include "engine/pipeline/snapshot.h"
+#include "engine/pipeline/tampered_sources.h"
 #include "engine/simulator/disturbances.h"
 #include "engine/simulator/world.h"
 #include "engine/transmitter/transmitter.h"
@@ -24,8 +24,8 @@ struct RigHardware {
   std::vector<std::unique_ptr<ObservationSource>> sources;
   std::unique_ptr<Transmitter> transmitter;
   std::shared_ptr<World> world;
-  std::vector<std::shared_ptr<WhiteBoardsChannel>> boards;  ///< one per camera
-  std::vector<std::shared_ptr<ExtractorOrders>> orders;     ///< one per camera
+  std::vector<std::shared_ptr<TamperingChannel>> tampering;     ///< one per camera
+  std::vector<std::shared_ptr<ExtractorOrders>> orders;         ///< one per camera
   std::vector<std::optional<CameraDisturbances>> disturbances;  ///< of simulated cameras: where they truly are
   std::vector<std::shared_ptr<CameraLink>> links;               ///< one per camera
 

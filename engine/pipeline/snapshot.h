@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct CameraSnapshot {
   bool hidden = false;                                ///< by the operator: its observations are thrown away
   int boards = 0;                                     ///< before it, put there by the operator
   std::uint32_t knocks = 0;                           ///< by the operator, so far
+  double lost_share = 0.0;                            ///< of its frames, by the operator's order
+  double noise = 0.0;                                 ///< the operator's [grey levels; px without images]
+  std::uint32_t backgrounds = 0;                      ///< taken anew by the operator, so far
   int knocks_found = 0;                               ///< how often it was found to have been moved
   bool frozen = false;                                ///< by the operator: learns no more
   std::uint64_t frames = 0;                           ///< received
@@ -93,6 +97,9 @@ struct EngineSnapshot {
   HelicopterState truth;           ///< at `time`
   Verdict verdict;                 ///< valid with `has_truth`
   bool gust_ordered = false;       ///< the operator's gust blows
+  std::uint32_t plans = 0;         ///< changes of the plan so far
+  std::uint32_t controls = 0;      ///< changes of gains and trims so far
+  std::uint32_t colours = 0;       ///< changes of the markers' colour range so far
   TimeNs server_p50 = 0;           ///< observation in hand to command out, flight thread
   TimeNs server_p99 = 0;
   TimeNs frame_to_command_p50 = 0;  ///< arrival of a camera's newest frame to the tick that first used it
@@ -122,6 +129,8 @@ struct CameraPicture {
   int height = 0;
   std::vector<std::uint8_t> bgr;  ///< packed rows, `3 * width` bytes each
   Observation observation;
+  /// What markers are told from, as `bgr`; null while there is none.
+  std::shared_ptr<const std::vector<std::uint8_t>> background;
 };
 
 enum class Severity : std::uint8_t { kInfo, kGood, kCaution, kDanger };

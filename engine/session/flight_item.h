@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 
 #include "engine/flight/autopilot.h"
+#include "engine/flight/flight_change.h"
 #include "engine/markers/observation.h"
 #include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/snapshot.h"
@@ -45,13 +47,18 @@ struct CalibrationDecided {
   TimeNs time = 0;
 };
 
+struct FlightChanged {
+  std::shared_ptr<const FlightChange> change;
+  TimeNs time = 0;
+};
+
 /// One thing that a session writes down, in the order in which it reached the flight thread. Allocates
 /// nothing.
 struct FlightItem {
   std::uint64_t order =
       0;  ///< counted from 1, also what was lost on the way to the disk; events and beliefs do not count
   std::variant<EngineEvent, UsedObservation, FlightTick, CameraHidden, CalibrationBegun, CalibrationDecided,
-               CameraBelief>
+               FlightChanged, CameraBelief>
       what;
 };
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "engine/session/flight_change_text.h"
 #include "engine/session/image_codec.h"
 
 namespace helical {
@@ -317,7 +318,7 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
 namespace {
 
 void putOrder(CdrWriter& out, std::uint64_t order, TimeNs time, const char* kind, CameraId camera,
-              const char* method, std::uint64_t seed, const CalibrationOrder& decided) {
+              std::string_view method, std::uint64_t seed, const CalibrationOrder& decided) {
   begin(out, time, kWorldFrame);
   out.put(order);
   out.put(time);
@@ -343,6 +344,10 @@ void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationBegun& be
 
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationDecided& decided) {
   putOrder(out, order, decided.time, toString(decided.what.kind), decided.what.camera, "", 0, decided.what);
+}
+
+void encodeOrder(CdrWriter& out, std::uint64_t order, const FlightChanged& changed) {
+  putOrder(out, order, changed.time, "change", CameraId(), textOf(*changed.change), 0, {});
 }
 
 void encodeEvent(CdrWriter& out, const EngineEvent& event) {

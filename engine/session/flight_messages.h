@@ -44,6 +44,7 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CameraHidden& hidden);
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationBegun& begun);
 void encodeOrder(CdrWriter& out, std::uint64_t order, const CalibrationDecided& decided);
+void encodeOrder(CdrWriter& out, std::uint64_t order, const FlightChanged& changed);
 void encodeEvent(CdrWriter& out, const EngineEvent& event);
 
 /// One frame's place in the world.
@@ -93,9 +94,9 @@ EngineEvent decodeEvent(std::string_view payload);
 struct DecodedOrder {
   std::uint64_t order = 0;
   TimeNs time = 0;
-  std::string kind;  ///< "hide", "show", "calibrate", or a CalibrationOrderKind's name
+  std::string kind;  ///< "hide", "show", "calibrate", "change", or a CalibrationOrderKind's name
   int camera = 0;
-  std::string method;
+  std::string method;  ///< of "change": see flight_change_text
   std::uint64_t seed = 0;
   std::optional<CalibrationOrder> decided;  ///< of the last kind
 };

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/pipeline/lock_step.h"
+#include "engine/session/flight_change_text.h"
 #include "engine/session/flight_messages.h"
 #include "engine/session/session_writer.h"
 
@@ -53,6 +54,7 @@ bool isAsRecorded(const EngineSnapshot& now, const RecordedTick& recorded) {
 }
 
 void obey(const DecodedOrder& order, const RigConfig& rig, LockStep& flight) {
+  if (order.kind == "change") return flight.change(flightChangeOf(order.method, rig.control));
   if (order.camera < 0 || static_cast<std::size_t>(order.camera) >= rig.cameras.size()) throw CutShort();
   if (order.kind == "hide" || order.kind == "show")
     flight.hideCamera(cameraId(order.camera), order.kind == "hide");

@@ -114,9 +114,9 @@ constexpr Definition kDefinitions[] = {
      "std_msgs/Header header\n"
      "uint64 order            # of what reached the flight thread\n"
      "int64 time_ns\n"
-     "string kind             # hide, show, calibrate, freeze, resume, accept, trust-rig, adopt\n"
+     "string kind             # hide, show, calibrate, change, freeze, resume, accept, trust-rig, adopt\n"
      "int32 camera            # counted from 0\n"
-     "string method\nuint64 seed\n"
+     "string method           # of a change: its values as JSON\nuint64 seed\n"
      "float64[7] camera_from_world  # of adopt: quaternion w x y z, then the translation\n"
      "float64[36] covariance   # of adopt: rotation in the camera's frame, then its centre in the world\n"},
 };

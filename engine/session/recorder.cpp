@@ -84,6 +84,12 @@ void Recorder::onCalibrationOrder(const CalibrationOrder& order, TimeNs now) {
   push();
 }
 
+void Recorder::onChange(const std::shared_ptr<const FlightChange>& change, TimeNs now) {
+  ++next_.order;
+  next_.what = FlightChanged{change, now};
+  push();
+}
+
 void Recorder::onEvent(const EngineEvent& event) {
   next_.what = event;  // tells of the things that count, and is none of them
   push();

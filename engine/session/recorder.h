@@ -45,6 +45,7 @@ class Recorder final : public FlightTap {
   void onHidden(CameraId camera, bool hidden, TimeNs now) override;
   void onCalibration(CameraId camera, const char* method, std::uint64_t seed, TimeNs now) override;
   void onCalibrationOrder(const CalibrationOrder& order, TimeNs now) override;
+  void onChange(const std::shared_ptr<const FlightChange>& change, TimeNs now) override;
   void onEvent(const EngineEvent& event) override;
   void onBelief(CameraId camera, const CalibrationView& belief, TimeNs now) override;
   RecordHealth health() const override;

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/pipeline/flight_loop.h"
+#include "engine/session/flight_change_text.h"
 #include "engine/session/flight_messages.h"
 #include "engine/session/session_writer.h"
 
@@ -64,6 +65,12 @@ class Player {
 
   void obey(const DecodedOrder& order) {
     countMissing(order.order);
+    if (order.kind == "change") {
+      FlightChange change = flightChangeOf(order.method, rig_.control);
+      if (change.plan) loop_.swapPlan(*change.plan);
+      if (change.control) loop_.setControl(*change.control);
+      return;
+    }
     if (order.camera < 0 || static_cast<std::size_t>(order.camera) >= rig_.cameras.size()) throw CutShort();
     const CameraId id = cameraId(order.camera);
     if (order.kind == "hide" || order.kind == "show") loop_.hideCamera(id, order.kind == "hide");

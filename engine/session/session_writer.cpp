@@ -136,6 +136,11 @@ void SessionWriter::write(std::uint64_t order, const CalibrationDecided& decided
   send(orders_, decided.time);
 }
 
+void SessionWriter::write(std::uint64_t order, const FlightChanged& changed) {
+  encodeOrder(out_, order, changed);
+  send(orders_, changed.time);
+}
+
 void SessionWriter::write(std::uint64_t order, const FlightTick& tick) {
   const EngineSnapshot& state = tick.state;
   if (state.pose_known) {

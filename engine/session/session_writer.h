@@ -46,6 +46,7 @@ class SessionWriter {
   void write(std::uint64_t order, const CalibrationBegun& begun);
   void write(std::uint64_t order, const CameraBelief& belief);
   void write(std::uint64_t order, const CalibrationDecided& decided);
+  void write(std::uint64_t order, const FlightChanged& changed);
   void writeTruth(const EngineSnapshot& state);
   void writeCamera(const EngineSnapshot& state, std::size_t index);
 

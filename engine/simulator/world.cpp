@@ -154,6 +154,7 @@ std::optional<WorldSample> World::at(TimeNs time) const {
   HELICAL_CHECK(time <= step_ * kStep);
   const std::int64_t before = time / kStep;
   if (placed_at_step_ < 0 || before < placed_at_step_) return std::nullopt;
+  if (before >= cleared_from_ && before < cleared_until_) return std::nullopt;
   const std::int64_t first = std::max<std::int64_t>(before, step_ - kHistory + 1);
   const WorldSample& a = history_[static_cast<std::size_t>(first % kHistory)];
   if (first == step_) return a;
@@ -178,6 +179,12 @@ void World::holdEmpty() {
 void World::releaseEmpty() {
   const std::lock_guard lock(mutex_);
   --holds_;
+}
+
+void World::clearField(double duration_s) {
+  const std::lock_guard lock(mutex_);
+  cleared_from_ = step_;
+  cleared_until_ = step_ + static_cast<std::int64_t>(duration_s / kStepS);
 }
 
 void World::command(const StickDemand& demand, TimeNs when) {

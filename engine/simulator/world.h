@@ -41,6 +41,10 @@ class World {
   void holdEmpty();
   void releaseEmpty();
 
+  /// Somebody carries the helicopter off the field for so long, from now, for cameras that take a new
+  /// background; then it stands where it stood.
+  void clearField(double duration_s);
+
   /// Sticks that take effect at `when`.
   void command(const StickDemand& demand, TimeNs when);
 
@@ -88,6 +92,8 @@ class World {
   std::int64_t earliest_placing_;
   std::int64_t placed_at_step_ = -1;  ///< not yet
   int holds_ = 0;
+  std::int64_t cleared_from_ = 0;  ///< steps
+  std::int64_t cleared_until_ = 0;
   double upper_angle_ = 0.0;
   double lower_angle_ = 0.0;
   std::optional<CarriedPath> carried_;

@@ -51,6 +51,39 @@ FlightPlan tour() {
   return plan;
 }
 
+TEST(PlanFollower, AChangedPlanIsFlownOnFromTheSameWaypoint) {
+  Follow flight{tour()};
+  flight.stepFor(4.5);  // on the way to the second
+  const Vector3d before = flight.follower.setPoint().position_in_world;
+  FlightPlan changed = tour();
+  changed.waypoints[1].position_above_pad = {-0.4, 0.2, 0.8};
+  flight.follower.swapPlan(changed);
+  EXPECT_EQ(changed.waypoints[1].position_above_pad, tour().waypoints[1].position_above_pad) << "swapped";
+  const SetPoint first = flight.step();
+  EXPECT_LT((first.position_in_world - before).norm(), 0.3 * kTick + 1e-9) << "no jump";
+  flight.stepFor(4.0);
+  EXPECT_NEAR(flight.follower.setPoint().position_in_world.x(), -0.4, 1e-9);
+}
+
+TEST(PlanFollower, AShorterPlanEndsAtItsLastWaypointALongerOneGoesOn) {
+  Follow flight{tour()};
+  flight.stepFor(30.0);
+  ASSERT_TRUE(flight.follower.finished());
+  FlightPlan longer = tour();
+  longer.waypoints.push_back({{0.2, 0.0, 0.6}, 0.0, 0.0, 0.3});
+  flight.follower.swapPlan(longer);
+  EXPECT_FALSE(flight.follower.finished());
+  flight.stepFor(10.0);
+  EXPECT_TRUE(flight.follower.finished());
+  EXPECT_NEAR(flight.follower.setPoint().position_in_world.x(), 0.2, 1e-9);
+
+  FlightPlan one;
+  flight.follower.swapPlan(one);
+  flight.stepFor(10.0);
+  EXPECT_NEAR(flight.follower.setPoint().position_in_world.x(), 0.0, 1e-9);
+  EXPECT_TRUE(flight.follower.finished());
+}
+
 TEST(PlanFollower, ClimbsAtTheClimbSpeedToTheFirstWaypoint) {
   Follow flight{FlightPlan{}};
   double last = flight.position.z();

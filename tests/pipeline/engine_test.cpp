@@ -76,6 +76,69 @@ TEST(Engine, FliesHidesACameraAndIsKilled) {
   EXPECT_FALSE(engine.running());
 }
 
+TEST(Engine, ObeysWhatTheOperatorChangesInFlight) {
+  FlightPlan plan = loadPlan(planPath("hover"));
+  plan.land_at_s = 0.0;
+  plan.waypoints.front().hold_s = 1e6;
+  Engine engine(test::shippedRig("paper", 4), plan);
+  engine.start();
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.pose_known; }));
+
+  engine.loseFrames(cameraId(1), 0.5);
+  engine.addNoise(cameraId(2), 0.0, 2.0);
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) {
+    return now.cameras[1].lost_share == 0.5 && now.cameras[1].dropped > 5 && now.cameras[2].noise == 2.0;
+  }));
+  EXPECT_EQ(engine.snapshot().cameras[0].dropped, 0U);
+  engine.loseFrames(cameraId(1), 0.0);
+  engine.addNoise(cameraId(2), 0.0, 0.0);
+
+  plan.waypoints.front().position_above_pad.z() = 0.45;
+  ControllerOptions control = engine.control();
+  control.yaw_p = 1.0;
+  engine.change({plan, {}});
+  engine.change({{}, control});  // at once after: neither is lost
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.plans >= 1 && now.controls >= 1; }));
+  EXPECT_EQ(engine.control().yaw_p, 1.0);
+  EXPECT_EQ(engine.plan().waypoints.front().position_above_pad.z(), 0.45);
+  control.yaw_p = 50.0;
+  EXPECT_THROW(engine.change({plan, control}), Error);
+  EXPECT_EQ(engine.control().yaw_p, 1.0);
+
+  engine.takeOff();
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.hovering; }));
+  EXPECT_NEAR(engine.snapshot().set_point.position_in_world.z() - engine.snapshot().pad_height, 0.45, 0.01);
+  EXPECT_THROW(engine.takeBackground(), Error) << "not in flight";
+  engine.kill();
+}
+
+TEST(Engine, TakesAnotherColourAndANewBackground) {
+  RigConfig rig = test::shippedRig("paper", 4);
+  rig.simulation.images = true;
+  Engine engine(rig, loadPlan(planPath("hover")));
+  engine.start();
+  const auto seen = [](const auto& now) { return now.cameras[0].centroids >= 4; };
+  const auto blind = [](const auto& now) { return now.cameras[0].centroids == 0; };
+  ASSERT_TRUE(waitUntil(engine, seen));
+  ASSERT_TRUE(engine.pollPicture(cameraId(0)));
+  ASSERT_NE(engine.picture(cameraId(0)).background, nullptr);
+  EXPECT_EQ(engine.picture(cameraId(0)).background->size(), engine.picture(cameraId(0)).bgr.size());
+
+  ColourRange other = engine.markerColour();
+  other.hue_low = (other.hue_low + 90) % 180;
+  other.hue_high = (other.hue_high + 90) % 180;
+  engine.setMarkerColour(other);
+  ASSERT_TRUE(waitUntil(engine, blind)) << "no ball has that colour";
+  engine.setMarkerColour(rig.marker_options);
+  ASSERT_TRUE(waitUntil(engine, seen));
+  other.value_low = 300;
+  EXPECT_THROW(engine.setMarkerColour(other), Error);
+
+  engine.takeBackground();
+  ASSERT_TRUE(waitUntil(engine, blind));
+  ASSERT_TRUE(waitUntil(engine, seen)) << "the helicopter is not part of the background";
+}
+
 TEST(Engine, ASilentReaderCostsItNothing) {
   Engine engine(test::shippedRig("paper", 4), loadPlan(planPath("hover")));
   engine.start();

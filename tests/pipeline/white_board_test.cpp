@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/pipeline/boarded_sources.h"
+#include "engine/pipeline/tampered_sources.h"
 
 namespace helical {
 namespace {
@@ -73,13 +73,13 @@ TEST(WhiteBoard, FramesShowItAndTheSourceKeepsItsPixels) {
   for (const PixelFormat format : {PixelFormat::kMono8, PixelFormat::kBgr8}) {
     auto source = std::make_unique<GreyCamera>(format);
     const GreyCamera& grey = *source;
-    auto channel = std::make_shared<WhiteBoardsChannel>();
-    BoardedCamera camera(std::move(source), channel);
+    auto channel = std::make_shared<TamperingChannel>();
+    TamperedCamera camera(std::move(source), channel);
     Frame frame;
     ASSERT_TRUE(camera.poll(frame));
     EXPECT_EQ(frame.image.row(10)[0], 100);
 
-    channel->back() = rectangle(4.5, 5.5, 9.5, 100.0);
+    channel->back().boards = rectangle(4.5, 5.5, 9.5, 100.0);
     channel->publish();
     ASSERT_TRUE(camera.poll(frame));
     EXPECT_EQ(frame.sequence, 1U);
@@ -91,7 +91,7 @@ TEST(WhiteBoard, FramesShowItAndTheSourceKeepsItsPixels) {
       }
     EXPECT_TRUE(grey.untouched());
 
-    channel->back() = {};
+    channel->back().boards = {};
     channel->publish();
     ASSERT_TRUE(camera.poll(frame));
     EXPECT_EQ(frame.image.row(10)[bytes * 7], 100);
@@ -99,10 +99,10 @@ TEST(WhiteBoard, FramesShowItAndTheSourceKeepsItsPixels) {
 }
 
 TEST(WhiteBoard, OutsideOfTheImageItTouchesNothing) {
-  auto channel = std::make_shared<WhiteBoardsChannel>();
-  channel->back() = rectangle(-500.0, -500.0, 1e4, 1e4);
+  auto channel = std::make_shared<TamperingChannel>();
+  channel->back().boards = rectangle(-500.0, -500.0, 1e4, 1e4);
   channel->publish();
-  BoardedCamera camera(std::make_unique<GreyCamera>(PixelFormat::kBgr8), channel);
+  TamperedCamera camera(std::make_unique<GreyCamera>(PixelFormat::kBgr8), channel);
   Frame frame;
   ASSERT_TRUE(camera.poll(frame));
   EXPECT_GT(frame.image.row(kHeight - 1)[3 * kWidth - 1], 200);
@@ -110,12 +110,12 @@ TEST(WhiteBoard, OutsideOfTheImageItTouchesNothing) {
 }
 
 TEST(WhiteBoard, CentroidsBehindItAreNotSeen) {
-  auto channel = std::make_shared<WhiteBoardsChannel>();
-  BoardedObserver observer(std::make_unique<FourCentroids>(), channel);
+  auto channel = std::make_shared<TamperingChannel>();
+  TamperedObserver observer(std::make_unique<FourCentroids>(), channel);
   Observation observation;
   ASSERT_TRUE(observer.poll(observation));
   EXPECT_EQ(observation.count, 4);
-  channel->back() = rectangle(5.0, 0.0, 22.0, 20.0);
+  channel->back().boards = rectangle(5.0, 0.0, 22.0, 20.0);
   channel->publish();
   ASSERT_TRUE(observer.poll(observation));
   ASSERT_EQ(observation.count, 2);

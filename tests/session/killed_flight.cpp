@@ -40,6 +40,9 @@ class Witness final : public FlightTap {
   void onCalibrationOrder(const CalibrationOrder& order, TimeNs now) override {
     recorder_.onCalibrationOrder(order, now);
   }
+  void onChange(const std::shared_ptr<const FlightChange>& change, TimeNs now) override {
+    recorder_.onChange(change, now);
+  }
   void onEvent(const EngineEvent& event) override { recorder_.onEvent(event); }
   void onBelief(CameraId camera, const CalibrationView& belief, TimeNs now) override {
     recorder_.onBelief(camera, belief, now);

@@ -41,6 +41,34 @@ Replay replayed(const std::filesystem::path& file, const ReplayChanges& changes 
   return replaySession(session, settingsOf(session), changes, [](const EngineSnapshot&) {});
 }
 
+TEST(Replay, ChangesOfPlanAndGainsInFlightAreRepeatedBitForBit) {
+  const TemporaryFolder folder;
+  const SessionSettings settings = test::hoverSettings(5);
+  {
+    Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kWait);
+    LockStep flight(settings.rig, settings.plan, &recorder);
+    OperatorCommands commands;
+    for (int i = 0; i < kTicks; ++i) {
+      commands.take_off = i == 60;
+      if (i == 500) {
+        FlightChange change{settings.plan, settings.rig.control};
+        change.plan->waypoints = {{{0.1, 0.2, 0.7}, 0.1, 0.0, 1.0 / 3.0}};
+        change.control->position_p = 1.2;
+        change.control->trim_roll = 0.01;
+        flight.change(change);
+      }
+      flight.tick(commands);
+    }
+  }
+  const Replay replay = replayed(folder / "a.mcap");
+  EXPECT_EQ(replay.ticks, static_cast<std::uint64_t>(kTicks));
+  EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
+  EXPECT_EQ(replay.missing, 0u);
+  EXPECT_EQ(replay.last.plans, 1u);
+  EXPECT_EQ(replay.last.controls, 1u);
+  EXPECT_NEAR(replay.last.set_point.position_in_world.y(), 0.2, 1e-9);
+}
+
 TEST(Replay, TheSameSettingsGiveTheSameFlightBitForBit) {
   const TemporaryFolder folder;
   for (const char* calibrator : {"joint", "particle-filter", "ekf"}) {

@@ -7,8 +7,10 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/calibration_panel.h"
 #include "ui/camera_pane.h"
+#include "ui/camera_tools.h"
 #include "ui/camera_wall.h"
 #include "ui/event_list.h"
+#include "ui/event_panel.h"
 #include "ui/panel_title.h"
 #include "ui/plot_deck.h"
 #include "ui/time_plots.h"
@@ -36,8 +38,8 @@ class CalibrationWindow : public WindowTest {
   }
   bool announced(const QString& text) {
     return eventually([&] {
-      for (int i = 0; i < window_->events().count(); ++i)
-        if (window_->events().item(i)->text().contains(text)) return true;
+      for (int i = 0; i < window_->events().list().count(); ++i)
+        if (window_->events().list().item(i)->text().contains(text)) return true;
       return false;
     });
   }
@@ -123,7 +125,7 @@ TEST_F(CalibrationWindow, ARigWithKnownPlacesHasNothingToChooseUntilACameraIsKno
   EXPECT_EQ(window_->calibration().state(0), "");
 
   ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
-  for (QAction* action : window_->cameras().pane(0).disturbances())
+  for (QAction* action : window_->cameras().pane(0).tools().disturbances())
     if (action->text().contains("10 deg")) action->trigger();
   EXPECT_TRUE(eventually([this] { return snapshot().cameras[0].knocks_found > 0; }));
   EXPECT_TRUE(eventually([this] { return !window_->calibration().state(0).isEmpty(); }));

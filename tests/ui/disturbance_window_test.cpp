@@ -6,6 +6,7 @@
 #include "engine/geometry/camera_perturbation.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/camera_pane.h"
+#include "ui/camera_tools.h"
 #include "ui/camera_view.h"
 #include "ui/camera_wall.h"
 #include "ui/plot_deck.h"
@@ -31,7 +32,7 @@ class DisturbanceWindow : public WindowTest {
     drag(on, on.toWidget({5, 5}), on.toWidget({634, 474}));
   }
   QAction* disturbance(int camera, const QString& part) {
-    for (QAction* action : window_->cameras().pane(camera).disturbances())
+    for (QAction* action : window_->cameras().pane(camera).tools().disturbances())
       if (action->text().contains(part)) return action;
     return nullptr;
   }

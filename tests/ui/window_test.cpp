@@ -1,16 +1,13 @@
 #include <QApplication>
-#include <QDialog>
-#include <QMenu>
-#include <QMenuBar>
 #include <QPushButton>
 #include <QThread>
-#include <QTimer>
 #include <QToolButton>
 
 #include "tests/ui/window_fixture.h"
 #include "ui/camera_pane.h"
 #include "ui/camera_wall.h"
 #include "ui/event_list.h"
+#include "ui/event_panel.h"
 #include "ui/panel_title.h"
 #include "ui/plot_deck.h"
 #include "ui/preflight_popup.h"
@@ -54,41 +51,12 @@ TEST_F(WindowTest, LandsByMouse) {
   EXPECT_TRUE(eventually([this] { return window_->topBar().readiness() == "Landed"; }));
   EXPECT_FALSE(window_->topBar().takeOffButton()->isEnabled());
   EXPECT_FALSE(land->isEnabled());
-  EXPECT_GT(window_->events().count(), 2);
+  EXPECT_GT(window_->events().list().count(), 2);
 }
 
 TEST_F(WindowTest, TakesOffByItselfWhenAsked) {
   open(false, true);
   EXPECT_TRUE(reaches(FlightPhase::kFlying));
-}
-
-TEST_F(WindowTest, EscStopsFromWithinAModalDialog) {
-  open(false);
-  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
-  QDialog dialog(window_.get());
-  QTimer::singleShot(0, &dialog, [&dialog] { QTest::keyClick(&dialog, Qt::Key_Escape); });
-  dialog.exec();
-  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
-  EXPECT_TRUE(eventually([this] { return window_->topBar().readiness() == "Cut"; }));
-  EXPECT_TRUE(snapshot().failsafes & static_cast<std::uint32_t>(Failsafe::kKill));
-}
-
-TEST_F(WindowTest, EscStopsFromWithinAnOpenMenu) {
-  open(false);
-  ASSERT_TRUE(eventually([this] { return snapshot().tick > 0; }));
-  QMenu* menu = window_->topBar().menuBar()->actions().first()->menu();
-  menu->popup(window_->mapToGlobal(QPoint(200, 60)));
-  ASSERT_TRUE(eventually([menu] { return menu->isVisible(); }));
-  QTest::keyClick(menu, Qt::Key_Escape);
-  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
-}
-
-TEST_F(WindowTest, StopButtonStopsWhenItGoesDown) {
-  open(false);
-  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
-  QTest::mousePress(window_->topBar().stopButton(), Qt::LeftButton);
-  EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
-  EXPECT_TRUE(eventually([this] { return !window_->topBar().landButton()->isEnabled(); }));
 }
 
 TEST_F(WindowTest, DigitsHideAndShowCameras) {
@@ -149,15 +117,6 @@ TEST_F(WindowTest, TheReadinessWordOpensThePreFlightList) {
   // An open list does not keep the rotors turning.
   QTest::keyClick(&window_->topBar().preflight(), Qt::Key_Escape);
   EXPECT_TRUE(eventually([this] { return isCut(snapshot()); }));
-}
-
-TEST_F(WindowTest, EveryControlHasANameAndATip) {
-  open(false);
-  for (const QAbstractButton* button : window_->findChildren<QAbstractButton*>()) {
-    if (!button->isVisible()) continue;
-    EXPECT_FALSE(button->accessibleName().isEmpty()) << button->text().toStdString();
-    EXPECT_FALSE(button->toolTip().isEmpty()) << button->text().toStdString();
-  }
 }
 
 }  // namespace

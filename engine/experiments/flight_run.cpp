@@ -17,7 +17,8 @@ constexpr double kAfterwardsS = 0.5;  // watched after the flight has ended
 constexpr double kShortestFlightS = 6.0;
 constexpr double kLongestLiftOffS = 8.0;
 constexpr double kLongestTurnS = 6.0;  // half a turn at the reference's yaw rate
-constexpr double kPutDownS = 1.0;  // after it was carried, and the time before that in which the field is empty
+constexpr double kPutDownS =
+    1.0;  // after it was carried, and the time before that in which the field is empty
 
 constexpr double kPatienceS = 20.0;  // for the pre-arm checks, after which the flight is given up
 
@@ -35,7 +36,7 @@ class Operator {
   }
 
   bool isOver(const EngineSnapshot& now) {
-    const bool never_armed = !ordered_ && toSeconds(now.time) > kPatienceS;
+    const bool never_armed = !ordered_ && toSeconds(now.time) > carried_s_ + kPatienceS;
     return end_.isOver(now) || never_armed;
   }
 

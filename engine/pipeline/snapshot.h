@@ -64,6 +64,7 @@ struct RecordHealth {
 /// What the flight thread is told of the devices around it at a control tick.
 struct DeviceStatus {
   TransmitterStatus transmitter;
+  RecordHealth record;
 };
 
 /// The engine's state at one control tick; a plain value, copied to readers through a LatestValue.

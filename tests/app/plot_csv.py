@@ -4,7 +4,8 @@ import sys
 
 
 def plot(table, columns, out):
-    rows = list(csv.DictReader(open(table, newline="", encoding="utf-8")))
+    with open(table, newline="", encoding="utf-8") as lines:
+        rows = list(csv.DictReader(lines))
     time = [float(row["time_s [s]"]) for row in rows]
     with open(out, "w", encoding="utf-8") as svg:
         svg.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 -1 60 2">')

@@ -114,7 +114,7 @@ class Session(unittest.TestCase):
         with subprocess.Popen([BINARY, *map(str, FLIGHT), "--json", "--session", pipe], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as flight:
             with open(pipe, "rb") as reader:
-                reader.read(1000)
+                reader.read(100_000)  # beyond its head: before that the flight has not begun
             out, told = flight.communicate(timeout=600)
         self.assertEqual(flight.returncode, 0, told)
         self.assertEqual(without_run(json.loads(out)), without_run(self.report))
@@ -129,7 +129,8 @@ class Session(unittest.TestCase):
         self.assertEqual(run("recover", cut).returncode, 0)
         after = McapFile(cut)
         self.assertTrue(after.complete)
-        self.assertEqual(after.messages, before.messages)
+        # Topic by topic: events and the rest have chunks of their own, whose order is nobody's promise.
+        self.assertEqual(*(sorted(file.messages, key=lambda message: message[0]) for file in (after, before)))
         self.assertEqual(after.attachments, before.attachments)
         self.assertIn("nothing to mend", run("recover", cut).stdout)
 

@@ -19,7 +19,7 @@ struct Flight {
   const EngineSnapshot& run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       OperatorCommands commands;
-      commands.take_off = ++tick == kSecond;
+      commands.arm = commands.take_off = ++tick == kSecond;
       now = lock_step.tick(commands);
     }
     return now;
@@ -44,7 +44,8 @@ TEST(CalibrationOrder, ACameraWithoutAPoseLearnsWithoutAGuess) {
   flight.run(12 * kSecond);
   EXPECT_STREQ(flight.camera(2).calibration_method, "joint");
   EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
-  EXPECT_LT(cameraError(flight.camera(2).estimate.camera_from_world, flight.camera(2).true_camera_from_world).position,
+  EXPECT_LT(cameraError(flight.camera(2).estimate.camera_from_world, flight.camera(2).true_camera_from_world)
+                .position,
             0.01);
 }
 
@@ -74,7 +75,8 @@ TEST(CalibrationOrder, ACameraThatDoesNotKnowItsPlaceIsNotAccepted) {
 
 TEST(CalibrationOrder, AnAcceptedCameraComesInAtOnceAndStays) {
   Flight flight(test::shippedRig("paper", 3));
-  while (flight.now.tick < 10 * kSecond && flight.order(CalibrationOrderKind::kAccept, 2) != nullptr) flight.run(1);
+  while (flight.now.tick < 10 * kSecond && flight.order(CalibrationOrderKind::kAccept, 2) != nullptr)
+    flight.run(1);
   flight.run(1);
   EXPECT_EQ(flight.camera(2).estimate.status, CameraStatus::kCalibrated);
   flight.run(6 * kSecond);
@@ -104,7 +106,8 @@ TEST(CalibrationOrder, WhatOneFlightLearntAnotherOneAdopts) {
   second.run(3);
   EXPECT_EQ(second.camera(2).estimate.status, CameraStatus::kCalibrated);
   EXPECT_EQ(second.camera(2).calibration_method, nullptr);
-  EXPECT_EQ(second.camera(2).estimate.camera_from_world.translation, saved.cameras[2].camera_from_world.translation);
+  EXPECT_EQ(second.camera(2).estimate.camera_from_world.translation,
+            saved.cameras[2].camera_from_world.translation);
   EXPECT_EQ(second.camera(2).estimate.covariance, saved.cameras[2].covariance);
 }
 

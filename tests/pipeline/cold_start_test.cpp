@@ -35,7 +35,8 @@ EngineSnapshot fly(LockStep& flight, const FlightPlan& plan, double longest_s) {
   bool ordered = false;
   do {
     now = flight.tick(commands);
-    commands.take_off = !ordered && now.pose_known && toSeconds(now.time) > plan.carried_s + kPutDownS;
+    const bool put_down = toSeconds(now.time) > plan.carried_s + kPutDownS;
+    commands.arm = commands.take_off = !ordered && now.failing_checks == 0 && put_down;
     ordered = ordered || commands.take_off;
   } while (toSeconds(now.time) < longest_s && !(now.phase == FlightPhase::kOff && now.verdict.at_rest));
   return now;

@@ -1,4 +1,5 @@
-// Reading images only where the balls are expected, over flights: each frame is read a second time as a whole.
+// Reading images only where the balls are expected, over flights: each frame is read a second time as a
+// whole.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ class FlightReadTwice {
         while (source->poll(observation)) loop.onObservation(observation, clock->now());
       if (ms % 17 != 0) continue;
       OperatorCommands commands;
-      commands.take_off = ms == 17 * 60;
+      commands.arm = commands.take_off = ms == 17 * 60;
       output.submit(loop.onTick(clock->now(), commands), clock->now());
       output.step(clock->now());
       for (std::size_t i = 0; i < rig_.cameras.size(); ++i)
@@ -62,7 +63,8 @@ class FlightReadTwice {
     ++comparison_.frames;
     const auto truth = world_->at(frame.exposure);
     if (!truth) return;
-    const RigidTransform camera_from_world = world_->knocked(frame.camera, trueCameraFromWorld(rig_, frame.camera));
+    const RigidTransform camera_from_world =
+        world_->knocked(frame.camera, trueCameraFromWorld(rig_, frame.camera));
     for (int i = 0; i < all.count; ++i) {
       const Centroid& marker = all.centroids[static_cast<std::size_t>(i)];
       if (!isBall(marker, camera_from_world, truth->state, rig_.cameras[index].model)) continue;

@@ -95,7 +95,7 @@ TEST(Replay, WhatTheOperatorDecidedAboutCalibrationsIsDecidedAgain) {
     LockStep flight(settings.rig, settings.plan, &recorder);
     for (int i = 0; i < kTicks; ++i) {
       OperatorCommands commands;
-      commands.take_off = i == 60;
+      commands.arm = commands.take_off = i == 60;
       CalibrationOrder order;
       order.camera = cameraId(2);
       order.kind = i == 300 ? CalibrationOrderKind::kFreeze : CalibrationOrderKind::kResume;

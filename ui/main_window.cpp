@@ -116,7 +116,6 @@ MainWindow::~MainWindow() = default;
 void MainWindow::attach(Engine& engine) {
   engine_ = &engine;
   orders_->setEngine(&engine);
-  plan_->setPlan(engine.plan());
   gains_->setControl(engine.control());
   watch(engine);
 }
@@ -125,13 +124,16 @@ void MainWindow::attach(FlightPlayback& playback) {
   playback_bar_ = new PlaybackBar(playback);
   statusBar()->insertWidget(0, playback_bar_, 1);
   newest_event_->hide();
+  // Nobody flies here.
+  plan_->setEnabled(false);
+  gains_->setEnabled(false);
   setWindowTitle(tr("%1 - recorded flight").arg(QString::fromStdString(playback.file().filename().string())));
   watch(playback);
 }
 
 void MainWindow::watch(FlightView& view) {
   view_ = &view;
-  scene_->setPlan(view.plan());
+  plan_->setPlan(view.plan());
   since_load_.start();
   timer_.start(kTickMs);
 }

@@ -229,7 +229,9 @@ TEST_P(AravisCameraComesBack, WithItsSettings) {
   const TimeNs began = monotonicNow();
   ASSERT_TRUE(client.until([&] { return !client.streams() || client.link->returns > 0U; })) << "the loss was not noticed";
   RecordProperty("noticed_ms", static_cast<int>((monotonicNow() - began) / kNanosecondsPerMillisecond));
-  if (what == "taken") ASSERT_TRUE(client.until([&] { return client.link->state == LinkState::kTaken; }));
+  if (what == "taken") {
+    ASSERT_TRUE(client.until([&] { return client.link->state == LinkState::kTaken; }));
+  }
   const TimeNs lost = monotonicNow();
   ASSERT_TRUE(client.until([&] { return monotonicNow() > lost + 700 * kNanosecondsPerMillisecond; }));
   if (what == "restart") stage.start();

@@ -32,7 +32,7 @@ TEST(ExtractingSource, PassesStampsOnAndShowsEveryFrame) {
   options.background_frames = 1;
   int shown = 0;
   ExtractingSource source(std::make_unique<TwoFrames>(), options,
-                          [&shown](const Frame& frame, const Observation& o) {
+                          [&shown](const Frame& frame, const Observation& o, const Extractor&) {
                             ++shown;
                             EXPECT_EQ(frame.sequence, o.sequence);
                           });

@@ -33,7 +33,7 @@ class FlightReadTwice {
   Comparison fly(int milliseconds) {
     auto clock = std::make_shared<ManualClock>();
     RigHardware hardware = openRig(
-        rig_, clock, [this](const Frame& frame, const Observation& windowed) { readAgain(frame, windowed); });
+        rig_, clock, [this](const Frame& frame, const Observation& windowed, const Extractor&) { readAgain(frame, windowed); });
     world_ = hardware.world;
     FlightLoop loop(rig_, loadPlan(planPath("hover")));
     OutputLoop output(*hardware.transmitter);

@@ -82,6 +82,9 @@ class MainWindow : public QMainWindow {
   void sessionChosen(const QString& file);
   void firstImage(qint64 since_process_start_ns);
 
+ public Q_SLOTS:
+  void stop();
+
  protected:
   void closeEvent(QCloseEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;

@@ -1,11 +1,10 @@
 #include "app/session_windows.h"
 
-#include <QMessageBox>
-
 #include "engine/base/error.h"
 #include "engine/session/flight_playback.h"
 #include "engine/session/session_folder.h"
 #include "ui/main_window.h"
+#include "ui/open_dialog.h"
 #include "ui/top_bar.h"
 
 namespace helical {
@@ -46,9 +45,7 @@ void SessionWindows::openChosen(const QString& file) {
   try {
     open(file.toStdString());
   } catch (const Error& error) {
-    QMessageBox box(QMessageBox::Warning, QObject::tr("The session cannot be opened"),
-                    QString::fromUtf8(error.what()), QMessageBox::Close, flying_);
-    box.exec();
+    openNotice(flying_, QObject::tr("The session cannot be opened"), QString::fromUtf8(error.what()));
   }
 }
 

@@ -16,6 +16,8 @@ namespace helical {
 
 MainMenus::MainMenus(const RigConfig& rig, const Panels& panels, QMenuBar& bar, QMainWindow& window)
     : QObject(&window), rig_(rig), panels_(panels), window_(window) {
+  bar.addMenu(tr("F&ile"))
+      ->addAction(tr("Open session..."), QKeySequence::Open, this, &MainMenus::openRequested);
   buildFlight(*bar.addMenu(tr("&Flight")));
   buildCameras(*bar.addMenu(tr("&Cameras")));
   buildDisturb(*bar.addMenu(tr("&Disturb")));

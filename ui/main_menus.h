@@ -40,6 +40,7 @@ class MainMenus : public QObject {
   void show(const EngineSnapshot& snapshot, bool can_take_off, bool can_land);
 
  Q_SIGNALS:
+  void openRequested();
   void takeOffRequested();
   void landRequested();
   void stopRequested();

@@ -4,10 +4,8 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QDropEvent>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
-#include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
@@ -140,8 +138,8 @@ void MainWindow::watch(FlightView& view) {
 
 void MainWindow::detach() {
   timer_.stop();
-  orders_->setEngine(nullptr);
   view_ = nullptr;
+  orders_->setEngine(nullptr);
   engine_ = nullptr;
 }
 
@@ -302,25 +300,8 @@ void MainWindow::buildSceneTitle(PanelTitle& title) {
   title.addWidget(through);
 }
 
-void MainWindow::chooseSession() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Open a recorded flight"),
-                                                    options_.session_folder, tr("Sessions (*.mcap)"));
-  if (!file.isEmpty()) Q_EMIT sessionChosen(file);
-}
-
-void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile())
-    event->acceptProposedAction();
-}
-
-void MainWindow::dropEvent(QDropEvent* event) {
-  Q_EMIT sessionChosen(event->mimeData()->urls().first().toLocalFile());
-}
-
 void MainWindow::buildMenus() {
   setAcceptDrops(true);
-  QMenu* file = top_bar_->menuBar()->addMenu(tr("F&ile"));
-  file->addAction(tr("Open session..."), QKeySequence::Open, this, &MainWindow::chooseSession);
   menus_ = new MainMenus(rig_,
                          {*cameras_,
                           *scene_,
@@ -329,6 +310,7 @@ void MainWindow::buildMenus() {
                           {docks_.cameras, docks_.plots, docks_.flight, docks_.plan, docks_.gains,
                            docks_.calibration, docks_.events}},
                          *top_bar_->menuBar(), *this);
+  connect(menus_, &MainMenus::openRequested, this, &MainWindow::chooseSession);
   connect(menus_, &MainMenus::takeOffRequested, orders_, &EngineOrders::takeOff);
   connect(menus_, &MainMenus::landRequested, orders_, &EngineOrders::land);
   connect(menus_, &MainMenus::stopRequested, orders_, &EngineOrders::stop);
@@ -349,6 +331,20 @@ void MainWindow::buildMenus() {
   });
 }
 
+void MainWindow::chooseSession() {
+  askWhatToOpen(this, tr("Open a recorded flight"), options_.session_folder, tr("Sessions (*.mcap)"),
+                [this](const QString& file) { Q_EMIT sessionChosen(file); });
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile())
+    event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  Q_EMIT sessionChosen(event->mimeData()->urls().first().toLocalFile());
+}
+
 void MainWindow::buildStatusBar() {
   newest_event_ = new QLabel(tr("Starting the engine"));
   newest_event_->setFont(theme::uiFont(8.4));
@@ -363,6 +359,10 @@ void MainWindow::buildStatusBar() {
   statusBar()->setSizeGripEnabled(false);
   statusBar()->addWidget(newest_event_, 1);
   statusBar()->addPermanentWidget(load_);
+}
+
+void MainWindow::stop() {
+  orders_->stop();
 }
 
 void MainWindow::tick() {
@@ -423,6 +423,7 @@ void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
   top_bar_->show(snapshot);
   if (engine_ == nullptr) {
     // Nobody flies here.
+    top_bar_->armButton()->setEnabled(false);
     top_bar_->takeOffButton()->setEnabled(false);
     top_bar_->landButton()->setEnabled(false);
   }

@@ -29,9 +29,9 @@ void askWhereToSave(QWidget* parent, const QString& title, const QString& name, 
   openDialog(dialog);
 }
 
-void askWhatToOpen(QWidget* parent, const QString& title, const QString& filter,
+void askWhatToOpen(QWidget* parent, const QString& title, const QString& folder, const QString& filter,
                    const std::function<void(const QString&)>& then) {
-  auto* dialog = new QFileDialog(parent, title, QDir::currentPath(), filter);
+  auto* dialog = new QFileDialog(parent, title, folder, filter);
   dialog->setFileMode(QFileDialog::ExistingFile);
   QObject::connect(dialog, &QFileDialog::fileSelected, parent, then);
   openDialog(dialog);

@@ -17,7 +17,7 @@ void openNotice(QWidget* parent, const QString& title, const QString& text);
 /// `then` gets the path unless the user thinks better of it. `filter` as QFileDialog has it, "*.png".
 void askWhereToSave(QWidget* parent, const QString& title, const QString& name, const QString& filter,
                     const std::function<void(const QString&)>& then);
-void askWhatToOpen(QWidget* parent, const QString& title, const QString& filter,
+void askWhatToOpen(QWidget* parent, const QString& title, const QString& folder, const QString& filter,
                    const std::function<void(const QString&)>& then);
 
 }  // namespace helical

@@ -29,6 +29,7 @@ namespace {
 constexpr TimeNs kOutputPeriod = 5 * kNanosecondsPerMillisecond;
 constexpr TimeNs kPicturePeriod = 33 * kNanosecondsPerMillisecond;
 constexpr TimeNs kLongestWait = 20 * kNanosecondsPerMillisecond;
+constexpr int kBackgroundPictures = 30;
 constexpr double kFieldClear = 1.0;  // s, for a background of simulated cameras
 
 using ObservationQueue = SpscQueue<Observation, 16>;
@@ -71,19 +72,21 @@ class PictureTap {
   LatestValue<CameraPicture>& pictures() { return pictures_; }
 
  private:
-  /// A copy once after each change, shared by the pictures.
+  /// A copy that pictures share, made anew now and then: it follows the light.
   void keepBackground(const Extractor& extractor) {
     if (!extractor.hasBackground()) {
       background_.reset();
       return;
     }
-    if (background_) return;
+    if (background_ && ++background_age_ < kBackgroundPictures) return;
+    background_age_ = 0;
     auto copy = std::make_shared<std::vector<std::uint8_t>>();
     toBgr(extractor.background(), *copy);
     background_ = std::move(copy);
   }
   LatestValue<CameraPicture> pictures_;
   std::shared_ptr<const std::vector<std::uint8_t>> background_;
+  int background_age_ = 0;  ///< pictures
   TimeNs last_ = -1;
 };
 

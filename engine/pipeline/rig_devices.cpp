@@ -21,6 +21,11 @@ constexpr std::string_view kAravis = "aravis:";
 class NoTransmitter final : public Transmitter {
  public:
   void send(const StickDemand& /*demand*/, TimeNs /*now*/) override {}
+  TransmitterStatus status() const override {
+    TransmitterStatus status;
+    status.self_test_passed = false;  // it must not arm
+    return status;
+  }
 };
 
 template <std::size_t N>
@@ -62,9 +67,8 @@ std::unique_ptr<Transmitter> openOutputProcess(const RigConfig& rig, const std::
 
 bool needsRealTime(const RigConfig& rig) {
   return rig.transmitter.kind == "loopback" || rig.transmitter.kind == "output-process" ||
-         std::any_of(rig.cameras.begin(), rig.cameras.end(), [](const auto& camera) {
-           return !camera.source.empty() && camera.source != "sim";
-         });
+         std::any_of(rig.cameras.begin(), rig.cameras.end(),
+                     [](const auto& camera) { return !camera.source.empty() && camera.source != "sim"; });
 }
 
 std::unique_ptr<CameraSource> openDevice(const RigConfig& rig, CameraId id, std::shared_ptr<Clock> clock,

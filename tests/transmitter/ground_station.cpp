@@ -13,6 +13,8 @@ int main(int argc, char** argv) {
   helical::OutputSettings settings;
   std::strncpy(settings.device.data(), "loopback", settings.device.size() - 1);
   std::strncpy(settings.address.data(), argv[2], settings.address.size() - 1);
+  settings.guard.hold_s = 0.1;
+  settings.guard.ramp_per_s = 4.0;
   helical::OutputProcess output(settings, argv[1]);
   std::printf("%d\n", output.pid());
   std::fflush(stdout);

@@ -17,6 +17,7 @@
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -111,7 +112,12 @@ class GroundStation {
     kill(pid_, signal_number);
     return systemTime();
   }
-  bool outputRuns() const { return kill(output_, 0) == 0; }
+  /// What has ended counts as gone, whether or not somebody has taken note of it.
+  bool outputRuns() const {
+    std::ifstream stat("/proc/" + std::to_string(output_) + "/stat");
+    std::string pid, name, state;
+    return (stat >> pid >> name >> state) && state != "Z";
+  }
 
  private:
   pid_t pid_ = -1;

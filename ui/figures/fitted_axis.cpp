@@ -36,6 +36,8 @@ PlotAxis fittedAxis(const QString& title, const std::vector<Curve>& curves, doub
     }
   }
   if (low > high) return fittedAxis(title, 0.0, smallest, smallest);
+  // What is never negative stands on its axis.
+  if (low >= 0.0 && low < 0.5 * high) return fittedAxis(title, 0.0, std::max(high, smallest), 0.0);
   return fittedAxis(title, low, high, smallest);
 }
 

@@ -20,7 +20,7 @@ constexpr double kUnitsPerMillimetre = kUnitsPerInch / kMillimetresPerInch;
 constexpr double kPointsPerMillimetre = 72.0 / kMillimetresPerInch;
 const QSizeF kPage(210.0, 297.0);
 constexpr double kBorder = 18.0;
-constexpr double kFigureScale = 1.7;  // a column's figure fills the page's width
+constexpr double kFigureScale = 1.25;  // two figures of two panels fill a page
 constexpr double kBetween = 10.0;
 constexpr double kTitleHeight = 6.0;
 
@@ -32,7 +32,7 @@ constexpr double kTitleHeight = 6.0;
 /// Text is laid out in points; as many pages as it takes.
 void drawText(QPainter& painter, QPdfWriter& writer, const QString& html) {
   QTextDocument text;
-  text.setDefaultFont(QFont(QStringLiteral("DejaVu Sans"), 9));
+  text.setDefaultFont(QFont(QStringLiteral("DejaVu Sans"), 8));
   const QSizeF room = (kPage - QSizeF(2.0 * kBorder, 2.0 * kBorder)) * kPointsPerMillimetre;
   text.documentLayout();
   text.setPageSize(room);

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kHead =
     "<html><head><style>"
     "h1 { font-size: 16pt; } h2 { font-size: 11pt; margin-top: 10pt; }"
-    "td, th { padding: 1pt 10pt 1pt 0pt; text-align: left; } .quiet { color: #707070; }"
+    "th { text-align: left; }"
     "</style></head><body>";
 
 QString escaped(const std::string& text) {
@@ -32,7 +32,8 @@ QString measured(const RunningRms& rms, double scale, int decimals, const char* 
 class Table {
  public:
   explicit Table(const QString& title)
-      : html_(QStringLiteral("<h2>") + title + QStringLiteral("</h2><table>")) {}
+      : html_(QStringLiteral("<h2>") + title +
+              QStringLiteral("</h2><table cellspacing=\"0\" cellpadding=\"3\">")) {}
   void row(const QStringList& cells, const char* tag = "td") {
     html_ += QStringLiteral("<tr>");
     for (const QString& cell : cells) html_ += QStringLiteral("<%1>%2</%1>").arg(QLatin1String(tag), cell);

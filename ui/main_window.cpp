@@ -143,10 +143,6 @@ void MainWindow::detach() {
   engine_ = nullptr;
 }
 
-void MainWindow::stop() {
-  orders_->stop();
-}
-
 void MainWindow::fitToScreen() {
   const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
   const QSize size(std::min(room.width(), 1920), std::min(room.height(), 1080));

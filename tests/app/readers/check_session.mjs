@@ -126,8 +126,10 @@ function same(value, cell) {
   if (typeof value === "string") return value === cell;
   if (typeof value === "boolean") return cell === (value ? "1" : "0");
   if (typeof value === "bigint") return value === BigInt(cell);
-  if (Array.isArray(value)) return value.length === (cell === "" ? 0 : cell.split(" ").length) &&
-      value.every((element, i) => same(element, cell.split(" ")[i]));
+  if (Array.isArray(value)) {
+    const parts = cell === "" ? [] : cell.split(" ");
+    return value.length === parts.length && value.every((element, i) => same(element, parts[i]));
+  }
   if (typeof value === "object") return cell === `${value.sec}.${String(value.nanosec).padStart(9, "0")}`;
   return Object.is(value, Number(cell)) || Math.fround(Number(cell)) === value;
 }

@@ -117,6 +117,7 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["frame_to_command_us"] = microseconds(run.last.frame_to_command_p50, run.last.frame_to_command_p99);
   report["not_armed"] = checkReasons(score.unarmedBecause());
   report["failsafes"] = failsafeNames(score.failsafes());
+  report["cameras_disagree"] = run.last.cameras_disagree;
   report["session"] = run.session.empty() ? json(nullptr) : json(run.session);
   return report.dump(2);
 }

@@ -82,6 +82,12 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   }
   for (std::size_t i = 0; i < names_.size(); ++i) announceCamera(now, i, raise);
   announceRecord(now, raise);
+  if (now.cameras_disagree && !disagreed_)
+    raise(event(now.time, Severity::kDanger, "The last two cameras disagree: one was moved, which is not known"));
+  disagreed_ = now.cameras_disagree;
+  if (now.cold_start != nullptr && now.cold_start != cold_start_)
+    raise(event(now.time, Severity::kInfo, now.cold_start));
+  cold_start_ = now.cold_start;
   if (now.gust_ordered && !gust_blew_) raise(event(now.time, Severity::kInfo, "A gust"));
   gust_blew_ = now.gust_ordered;
   announceChanges(now, raise);

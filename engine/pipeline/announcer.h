@@ -60,6 +60,8 @@ class Announcer {
   bool had_pose_ = false;
   bool gave_up_ = false;
   bool gust_blew_ = false;
+  bool disagreed_ = false;
+  const char* cold_start_ = nullptr;
   RecordHealth record_;
   std::array<Camera, kMaxCameras> cameras_{};
   Changes changes_;

@@ -55,6 +55,8 @@ void ControlSet::hide(CameraId camera, bool hidden) {
 void ControlSet::refreshUsable() {
   for (std::size_t i = 0; i < cameras_; ++i)
     usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !hidden_[i];
+  if (disputed_ >= 0 && estimates_[static_cast<std::size_t>(disputed_)].status == CameraStatus::kCalibrated)
+    disputed_ = -1;
 }
 
 void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
@@ -145,13 +147,14 @@ void ControlSet::learn(const Observation& observation, const Tracker& tracker, b
   if (cold_start_) startCold(observation, airborne);
   // What somebody carries about the tracker does not follow, and every camera seems to disagree.
   const bool judges = airborne || !cold_start_;
-  if (judges && usable_[index] && isKnocked(observation, tracker)) takeOut(index, tracker);
+  if (const int witnesses = judges && usable_[index] ? witnessesOfKnock(observation, tracker) : 0; witnesses > 0)
+    takeOut(index, witnesses, tracker);
   teachOthers(observation, airborne);
   if (learning_[index] && !hidden_[index] && !frozen_[index]) teach(observation, tracker, airborne);
   refreshUsable();
 }
 
-bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracker) {
+int ControlSet::witnessesOfKnock(const Observation& observation, const Tracker& tracker) {
   const std::size_t index = indexOf(observation.camera);
   const CameraTrack& track = tracker.track(observation.camera);
   KnockEvidence evidence;
@@ -163,11 +166,15 @@ bool ControlSet::isKnocked(const Observation& observation, const Tracker& tracke
     evidence.witnesses += i != index && usable_[i] && other.agreeing_count >= kSureBalls &&
                           observation.exposure - other.exposure < kTeaching;
   }
-  return detectors_[index].add(evidence);
+  return detectors_[index].add(evidence) ? evidence.witnesses : 0;
 }
 
-void ControlSet::takeOut(std::size_t camera, const Tracker& tracker) {
-  ++knocks_found_[camera];
+void ControlSet::takeOut(std::size_t camera, int witnesses, const Tracker& tracker) {
+  const bool named = witnesses > 1;
+  if (named)
+    ++knocks_found_[camera];
+  else
+    disputed_ = static_cast<int>(camera);
   found_by_cold_start_[camera] = false;
   int highest = 0;
   for (std::size_t i = 0; i < cameras_; ++i)
@@ -178,7 +185,8 @@ void ControlSet::takeOut(std::size_t camera, const Tracker& tracker) {
   // Who teaches it starts from what all of them knew up to now.
   if (!taught) teachers_[static_cast<std::size_t>(highest + 1)]->adopt(tracker);
   closeRanks();
-  calibrations_[camera]->restart(estimates_[camera].camera_from_world, CameraStatus::kRejected);
+  calibrations_[camera]->restart(estimates_[camera].camera_from_world,
+                                 named ? CameraStatus::kRejected : CameraStatus::kCalibrating);
   estimates_[camera] = calibrations_[camera]->estimate();
   bounds_[camera].restart();
   refreshUsable();

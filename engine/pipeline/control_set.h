@@ -18,8 +18,9 @@ namespace helical {
 
 /// Which cameras the helicopter is flown on, and how the others get there: keeps every camera's estimate,
 /// teaches those whose pose is not known yet, and takes out those that were knocked, whether their pose was
-/// given or learnt, to teach them anew from where they stood. The one that jumped is taken out, also
-/// of two: flying on with both of them crashes, and the pose predicted from before tells which one it was.
+/// given or learnt, to teach them anew from where they stood. Of two that disagree nobody can tell which one was
+/// moved, and none is named; but flying on with both crashes, so that the one that jumped away from the pose
+/// predicted from before is set aside until the operator decides.
 ///
 /// Who teaches whom has no circles. Cameras with a given pose have rank 0, those whose pose has to be found rank
 /// 1, and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of lower rank
@@ -56,6 +57,8 @@ class ControlSet {
   /// While too few cameras are known to fly: what the operator has to do; a literal, else null.
   const char* instruction() const;
   std::optional<CalibrationBound> bound(CameraId camera) const { return bounds_[indexOf(camera)].bound(); }
+  /// Two were left, and one of them was moved.
+  bool camerasDisagree() const { return disputed_ >= 0; }
   /// How often this camera was found knocked.
   int knocksFound(CameraId camera) const { return knocks_found_[indexOf(camera)]; }
 
@@ -66,8 +69,9 @@ class ControlSet {
   void startCold(const Observation& observation, bool airborne);
   /// It stands there, and nobody in this flight told it so.
   void place(std::size_t camera, const CameraEstimate& estimate);
-  bool isKnocked(const Observation& observation, const Tracker& tracker);
-  void takeOut(std::size_t camera, const Tracker& tracker);
+  /// How many cameras bear witness that this one was knocked; 0: it was not.
+  int witnessesOfKnock(const Observation& observation, const Tracker& tracker);
+  void takeOut(std::size_t camera, int witnesses, const Tracker& tracker);
   /// Ranks without gaps, and the teachers with them.
   void closeRanks();
   bool somebodyLearnsAt(int rank) const;
@@ -89,6 +93,7 @@ class ControlSet {
   std::array<int, kMaxCameras> rank_{};
   std::array<KnockDetector, kMaxCameras> detectors_;
   std::array<int, kMaxCameras> knocks_found_{};
+  int disputed_ = -1;  ///< the camera that was set aside when two disagreed
   std::array<std::unique_ptr<CameraCalibration>, kMaxCameras> calibrations_;
   std::array<LiveBound, kMaxCameras> bounds_;
   std::unique_ptr<ColdStart> cold_start_;        ///< if fewer than two cameras were given

@@ -129,6 +129,7 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.obstacle = output.obstacle;
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
+  snapshot_.cameras_disagree = control_set_.camerasDisagree();
   snapshot_.cold_start = airborne_ || snapshot_.pose_known ? nullptr : control_set_.instruction();
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
     const CameraId id = cameraId(static_cast<int>(i));

@@ -71,7 +71,7 @@ VirtualRigOptions virtualRig(const RigConfig& rig) {
   options.helicopter = rig.helicopter;
   options.simulation = rig.simulation;
   options.background_frames = rig.marker_options.background_frames;
-  options.transmitter = rig.transmitter_address;
+  options.transmitter = rig.transmitter.address;
   return options;
 }
 

@@ -6,6 +6,8 @@
 
 #include "app/calibrate.h"
 #include "app/detect.h"
+#include "app/devices.h"
+#include "app/doctor.h"
 #include "app/experiment.h"
 #include "app/export.h"
 #include "app/fly.h"
@@ -98,6 +100,8 @@ int main(int argc, char** argv) {
   helical::addFlyCommand(app, exit_code);
   helical::addCalibrateCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
+  helical::addDevicesCommand(app, exit_code);
+  helical::addDoctorCommand(app, exit_code);
   helical::addExperimentCommand(app, exit_code);
   helical::addExportCommand(app, exit_code);
   helical::addRecoverCommand(app, exit_code);

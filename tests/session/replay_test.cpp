@@ -49,7 +49,7 @@ TEST(Replay, ChangesOfPlanAndGainsInFlightAreRepeatedBitForBit) {
     LockStep flight(settings.rig, settings.plan, &recorder);
     OperatorCommands commands;
     for (int i = 0; i < kTicks; ++i) {
-      commands.take_off = i == 60;
+      commands.arm = commands.take_off = i == 60;
       if (i == 500) {
         FlightChange change{settings.plan, settings.rig.control};
         change.plan->waypoints = {{{0.1, 0.2, 0.7}, 0.1, 0.0, 1.0 / 3.0}};

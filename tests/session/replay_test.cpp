@@ -120,7 +120,7 @@ TEST(Replay, CoveredCamerasAnswerWhatWouldHaveBeenKnown) {
   const TemporaryFolder folder;
   record(folder / "a.mcap", test::hoverSettings(22));
   ReplayChanges changes;
-  changes.occlusions = {{cameraId(0), 10.0, 11.0}, {cameraId(1), 10.0, 11.0}};
+  for (int camera = 0; camera < 3; ++camera) changes.occlusions.push_back({cameraId(camera), 10.0, 11.0});
   const Replay replay = replayed(folder / "a.mcap", changes);
   EXPECT_GT(replay.different_ticks, 30u);
   EXPECT_NEAR(replay.first_difference_s, 10.0, 0.1);

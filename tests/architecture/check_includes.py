@@ -21,10 +21,10 @@ HEADER_THIRD_PARTY = re.compile(r"^Eigen/")
 UI_MAY_INCLUDE = re.compile(
     r"^(engine/pipeline/(engine|flight_view|snapshot|white_board)\.h"
     r"|engine/config/\w+\.h"
-    r"|engine/flight/(flight_plan|flight_state)\.h"
+    r"|engine/flight/(controller_options|flight_plan|flight_state)\.h"
     r"|engine/(base|geometry|helicopter)/\w+\.h"
     r"|engine/cameras/frame\.h"
-    r"|engine/markers/observation\.h"
+    r"|engine/markers/(marker_options|observation)\.h"
     r"|engine/experiments/flight_trace\.h"
     r"|engine/session/(flight_playback|session_summary)\.h"
     r"|engine/tracking/track\.h)$"

@@ -63,6 +63,7 @@ PlanEditor::PlanEditor(QWidget* parent) : QWidget(parent), table_(new QTableWidg
   table_->verticalHeader()->setMinimumWidth(22);
   table_->setFont(theme::monoFont(8.4));
   table_->horizontalHeader()->setFont(theme::uiFont(7.6));
+  table_->setTabKeyNavigation(false);  // Tab must lead on, to STOP at last
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setAccessibleName(tr("Waypoints"));

@@ -241,7 +241,7 @@
     </message>
     <message>
         <source>Restart</source>
-        <translation>Neu beginnen</translation>
+        <translation>Neustart</translation>
     </message>
     <message>
         <source>Restart the calibration of %1</source>
@@ -1946,6 +1946,10 @@ m/s</translation>
     <message>
         <source>is back, with its settings</source>
         <translation>ist zurück, mit ihren Einstellungen</translation>
+    </message>
+    <message>
+        <source>The last two cameras disagree: one was moved, which is not known</source>
+        <translation>Die letzten zwei Kameras widersprechen sich: eine wurde bewegt, welche ist unbekannt</translation>
     </message>
 </context>
 </TS>

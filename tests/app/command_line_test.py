@@ -43,7 +43,7 @@ class Fly(unittest.TestCase):
     def test_failsafe_landing_is_a_failure(self):
         code, report = run_json("fly", "--no-images", "--occlude", "1@10-99", "--occlude", "2@10-99")
         self.assertEqual((code, report["outcome"]), (1, "failsafe-landed"))
-        self.assertEqual(report["failsafes"], ["no-pose-coast", "no-pose-descent", "no-pose-cut"])
+        self.assertEqual(report["failsafes"], ["no-pose-coast", "no-pose-descent", "no-pose-cut", "no-pose-neutral"])
 
     def test_nothing_calibrated_is_aborted_with_null_figures(self):
         code, report = run_json("fly", "--no-images", "--uncalibrated", "1,2", "--duration", 13)

@@ -105,6 +105,8 @@ TEST(Engine, ObeysWhatTheOperatorChangesInFlight) {
   EXPECT_THROW(engine.change({plan, control}), Error);
   EXPECT_EQ(engine.control().yaw_p, 1.0);
 
+  ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.pose_known && now.failing_checks == 0; }));
+  engine.arm();
   engine.takeOff();
   ASSERT_TRUE(waitUntil(engine, [](const auto& now) { return now.hovering; }));
   EXPECT_NEAR(engine.snapshot().set_point.position_in_world.z() - engine.snapshot().pad_height, 0.45, 0.01);

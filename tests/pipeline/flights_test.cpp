@@ -70,8 +70,9 @@ TEST(Flights, EveryCameraCoveredForGoodDescendsAndCuts) {
     cover(rig, {0, 1, 2}, 13.0, 100.0);
     const Flown flown = flyHover(rig);
     EXPECT_EQ(flown.outcome, "failsafe-landed") << "seed " << seed << ": " << flown.verdict.reason;
-    EXPECT_EQ(failsafeNames(flown.score.failsafes()),
-              (std::vector<std::string>{"no-pose-coast", "no-pose-descent", "no-pose-cut"}));
+    EXPECT_EQ(
+        failsafeNames(flown.score.failsafes()),
+        (std::vector<std::string>{"no-pose-coast", "no-pose-descent", "no-pose-cut", "no-pose-neutral"}));
     EXPECT_FALSE(flown.hard_touch_while_seen);
   }
 }

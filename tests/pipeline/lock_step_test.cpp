@@ -91,7 +91,7 @@ EngineSnapshot flyWithChange(std::uint64_t seed, const FlightChange& change) {
   LockStep flight(test::shippedRig("paper", seed), plan);
   OperatorCommands commands;
   for (int i = 0; i < 2000; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     if (i == 500) flight.change(change);
     flight.tick(commands);
   }
@@ -118,7 +118,7 @@ TEST(LockStep, TrimsReachTheSticks) {
   LockStep trimmed(rig, loadPlan(planPath("hover")));
   OperatorCommands commands;
   for (int i = 0; i <= 500; ++i) {
-    commands.take_off = i == 60;
+    commands.arm = commands.take_off = i == 60;
     if (i == 500) {
       ControllerOptions control = rig.control;
       control.trim_roll = 0.05;

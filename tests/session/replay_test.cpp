@@ -49,7 +49,7 @@ TEST(Replay, ChangesOfPlanAndGainsInFlightAreRepeatedBitForBit) {
     LockStep flight(settings.rig, settings.plan, &recorder);
     OperatorCommands commands;
     for (int i = 0; i < kTicks; ++i) {
-      commands.take_off = i == 60;
+      commands.arm = commands.take_off = i == 60;
       if (i == 500) {
         FlightChange change{settings.plan, settings.rig.control};
         change.plan->waypoints = {{{0.1, 0.2, 0.7}, 0.1, 0.0, 1.0 / 3.0}};
@@ -120,7 +120,7 @@ TEST(Replay, CoveredCamerasAnswerWhatWouldHaveBeenKnown) {
   const TemporaryFolder folder;
   record(folder / "a.mcap", test::hoverSettings(22));
   ReplayChanges changes;
-  changes.occlusions = {{cameraId(0), 10.0, 11.0}, {cameraId(1), 10.0, 11.0}};
+  for (int camera = 0; camera < 3; ++camera) changes.occlusions.push_back({cameraId(camera), 10.0, 11.0});
   const Replay replay = replayed(folder / "a.mcap", changes);
   EXPECT_GT(replay.different_ticks, 30u);
   EXPECT_NEAR(replay.first_difference_s, 10.0, 0.1);

@@ -10,6 +10,7 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QScrollBar>
+#include <QTabBar>
 
 #include "tests/ui/window_fixture.h"
 #include "ui/calibration_panel.h"
@@ -40,7 +41,9 @@ bool isControl(const QWidget& widget) {
 bool ownedByControl(const QWidget& widget) {
   for (const QWidget* above = widget.parentWidget(); above != nullptr; above = above->parentWidget())
     if (qobject_cast<const QComboBox*>(above) || qobject_cast<const QAbstractSpinBox*>(above) ||
-        qobject_cast<const QMenuBar*>(above) || qobject_cast<const QMenu*>(above))
+        qobject_cast<const QAbstractItemView*>(above) || qobject_cast<const QLineEdit*>(above) ||
+        qobject_cast<const QTabBar*>(above) || qobject_cast<const QMenuBar*>(above) ||
+        qobject_cast<const QMenu*>(above))
       return true;
   return false;
 }
@@ -96,7 +99,7 @@ TEST_F(Accessibility, TabReachesStopAndEveryPanel) {
   window_->activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get(), kPatienceMs));
   bool reached_stop = false, reached_camera = false, reached_calibration = false;
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < 200; ++i) {
     press(Qt::Key_Tab);
     const QWidget* focus = QApplication::focusWidget();
     if (focus == nullptr) continue;

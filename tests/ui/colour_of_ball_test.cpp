@@ -78,14 +78,14 @@ PictureViewport viewport(double zoom) {
 
 TEST(ScalePicture, ZoomedPixelsStandWhereTheViewportSays) {
   CameraPicture picture = pictureOfBall(60);
-  std::uint8_t* dot = picture.bgr.data() + 3 * (100 * kWidth + 150);
+  std::uint8_t* dot = picture.bgr.data() + 3 * (112 * kWidth + 150);
   dot[0] = dot[1] = dot[2] = 255;
   for (const double zoom : {1.0, 4.0, 9.0}) {
     const PictureViewport view = viewport(zoom);
     QImage image;
     scalePicture(picture, view, {}, 1.0, image);
     ASSERT_EQ(image.size(), QSize(kWidth, kHeight));
-    const QPointF at = view.toWidget({150.0, 100.0});
+    const QPointF at = view.toWidget({150.0, 112.0});
     EXPECT_GT(qGray(image.pixel(static_cast<int>(at.x()), static_cast<int>(at.y()))), 220) << zoom;
   }
 }

@@ -24,7 +24,8 @@ class ColourWindow : public WindowTest {
   }
   bool seesAll(int camera) {
     return eventually([this, camera] {
-      return snapshot().cameras[static_cast<std::size_t>(camera)].centroids >= snapshot().marker_count;
+      const CameraSnapshot& state = snapshot().cameras[static_cast<std::size_t>(camera)];
+      return state.centroids >= snapshot().marker_count && state.track.markers[0].selected;
     });
   }
   QPoint onBall(int camera) {

@@ -134,10 +134,9 @@ TEST_F(Stop, APressBesideTheButtonStopsNothing) {
 }
 
 TEST_F(Stop, NoneOfTheWindowsOwnDialogsBlocksIt) {
-  press(Qt::Key_F1);
   for (QAction* menu : window_->topBar().menuBar()->actions())
     for (QAction* action : menu->menu()->actions())
-      if (action->text().startsWith("About")) action->trigger();
+      if (action->text().startsWith("About") || action->text().startsWith("Keys")) action->trigger();
   window_->colourTool().editor().show();
   const auto dialogs = window_->findChildren<QDialog*>();
   EXPECT_GE(dialogs.size(), 3);

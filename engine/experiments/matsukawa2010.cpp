@@ -33,7 +33,11 @@ RigConfig configured(const RigConfig& paper_rig, const MatsukawaArm& arm, std::u
   rig.simulation.noise.outliers = kOutliers;
   rig.simulation.noise.lost_markers = kLostMarkers;
   rig.simulation.occlusions = {{kCoveredCamera, kCoveredFromS, kLimitS}};
-  if (arm.calibrator.empty()) return rig;
+  if (arm.calibrator.empty()) {
+    // Left to itself it would find its place.
+    rig.simulation.occlusions.push_back({kLearner, 0.0, kLimitS});
+    return rig;
+  }
   rig.calibrator = arm.calibrator;
   giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, seed, true);
   return rig;

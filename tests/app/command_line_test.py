@@ -19,7 +19,7 @@ class Fly(unittest.TestCase):
         self.assertLessEqual({"position_rms_m", "orientation_rms_deg", "lost_s"}, set(report["tracking"]))
         self.assertEqual({"position_rms_m", "height_rms_m", "yaw_rms_deg"}, set(report["control"]))
         self.assertEqual([camera["id"] for camera in report["cameras"]], [1, 2, 3])
-        self.assertEqual([camera["calibrated"] for camera in report["cameras"]], [True, True, False])
+        self.assertEqual([camera["calibrated"] for camera in report["cameras"]], [True, True, True])
         for camera in report["cameras"]:
             self.assertLessEqual({"id", "calibrated", "frames", "dropped", "extraction_us", "calibration"}, set(camera))
             self.assertIsNone(camera["extraction_us"]["p50"])
@@ -41,7 +41,8 @@ class Fly(unittest.TestCase):
             self.assertEqual(camera["dropped"], 0)
 
     def test_failsafe_landing_is_a_failure(self):
-        code, report = run_json("fly", "--no-images", "--occlude", "1@10-99", "--occlude", "2@10-99")
+        code, report = run_json("fly", "--no-images", "--occlude", "1@10-99", "--occlude", "2@10-99",
+                                "--occlude", "3@10-99")
         self.assertEqual((code, report["outcome"]), (1, "failsafe-landed"))
         self.assertEqual(report["failsafes"], ["no-pose-coast", "no-pose-descent", "no-pose-cut", "no-pose-neutral"])
 

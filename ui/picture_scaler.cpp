@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 namespace helical {
 namespace {
 
-constexpr int kReach = 40;     // px about the click that may belong to the ball
-constexpr int kLikeness = 14;  // grey levels from one pixel to its neighbour
+constexpr int kReach = 40;      // px about the click that may belong to the ball
+constexpr int kMiss = 3;        // px that a click may be beside a coloured pixel
+constexpr int kHueReach = 12;   // of 180, within which it is the same ball
+constexpr int kDarkValue = 25;  // below, a hue means nothing, either
 constexpr int kFewestPixels = 5;
 constexpr int kGreySaturation = 50;  // below, a hue means nothing
 constexpr int kHueMargin = 8, kSaturationMargin = 45, kValueMargin = 35;
@@ -71,20 +75,48 @@ int percentile(std::vector<int>& values, double fraction) {
   return *at;
 }
 
-/// Pixels in HSV that are connected to `seed` and much like their neighbours.
-std::vector<cv::Vec3b> regionAround(const cv::Mat& bgr, cv::Point seed) {
-  const cv::Rect window = cv::Rect(seed.x - kReach, seed.y - kReach, 2 * kReach + 1, 2 * kReach + 1) &
+bool isColoured(const cv::Vec3b& hsv) {
+  return hsv[1] >= kGreySaturation && hsv[2] >= kDarkValue;
+}
+
+/// The coloured pixel nearest to a click that may have hit a highlight or missed by a little.
+std::optional<cv::Point> nearestColoured(const cv::Mat& hsv, cv::Point click) {
+  std::optional<cv::Point> nearest;
+  int best = kMiss * kMiss + 1;
+  for (int dy = -kMiss; dy <= kMiss; ++dy)
+    for (int dx = -kMiss; dx <= kMiss; ++dx) {
+      const cv::Point at(click.x + dx, click.y + dy);
+      if (at.x < 0 || at.y < 0 || at.x >= hsv.cols || at.y >= hsv.rows) continue;
+      const int distance = dx * dx + dy * dy;
+      if (distance >= best || !isColoured(hsv.at<cv::Vec3b>(at))) continue;
+      best = distance;
+      nearest = at;
+    }
+  return nearest;
+}
+
+/// Pixels in HSV that are connected to the click and of its hue: shading changes a small ball's brightness
+/// from one pixel to the next by more than its rim does.
+std::vector<cv::Vec3b> regionAround(const cv::Mat& bgr, cv::Point click) {
+  const cv::Rect window = cv::Rect(click.x - kReach, click.y - kReach, 2 * kReach + 1, 2 * kReach + 1) &
                           cv::Rect(0, 0, bgr.cols, bgr.rows);
-  cv::Mat part = bgr(window).clone(), hsv;
-  cv::Mat mask = cv::Mat::zeros(part.rows + 2, part.cols + 2, CV_8U);
-  cv::cvtColor(part, hsv, cv::COLOR_BGR2HSV);
-  const cv::Scalar likeness = cv::Scalar::all(kLikeness);
-  cv::floodFill(part, mask, seed - window.tl(), cv::Scalar(), nullptr, likeness, likeness,
-                4 | cv::FLOODFILL_MASK_ONLY | (255 << 8));
+  cv::Mat hsv;
+  cv::cvtColor(bgr(window), hsv, cv::COLOR_BGR2HSV);
+  const std::optional<cv::Point> seed = nearestColoured(hsv, click - window.tl());
+  if (!seed) return {};
+  const int hue = hsv.at<cv::Vec3b>(*seed)[0];
+  cv::Mat alike = cv::Mat::zeros(hsv.size(), CV_8U);
+  for (int y = 0; y < hsv.rows; ++y)
+    for (int x = 0; x < hsv.cols; ++x) {
+      const auto& pixel = hsv.at<cv::Vec3b>(y, x);
+      const int away = std::abs(pixel[0] - hue);
+      if (isColoured(pixel) && std::min(away, 180 - away) <= kHueReach) alike.at<std::uint8_t>(y, x) = 1;
+    }
+  cv::floodFill(alike, *seed, cv::Scalar(2));
   std::vector<cv::Vec3b> pixels;
   for (int y = 0; y < hsv.rows; ++y)
     for (int x = 0; x < hsv.cols; ++x)
-      if (mask.at<std::uint8_t>(y + 1, x + 1) != 0) pixels.push_back(hsv.at<cv::Vec3b>(y, x));
+      if (alike.at<std::uint8_t>(y, x) == 2) pixels.push_back(hsv.at<cv::Vec3b>(y, x));
   return pixels;
 }
 

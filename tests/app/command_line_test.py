@@ -66,9 +66,8 @@ class Fly(unittest.TestCase):
         print([(c["frames"], c["dropped"], c["extraction_us"]) for c in report["cameras"]], report["server_us"])
         for camera in report["cameras"]:
             self.assertGreater(camera["frames"], 600)
-            # A machine that stalls for longer than a camera's buffer loses frames, on slow ones one in a hundred; a rig
-            # that cannot keep up loses every second one. How many are lost is for benchmarks to say.
-            self.assertLess(camera["dropped"], 0.1 * camera["frames"])
+            # A machine that stalls for longer than a camera's buffer loses frames; a rig that cannot keep up loses many.
+            self.assertLess(camera["dropped"], 0.01 * camera["frames"])
 
     def test_calibration_in_flight_is_reported(self):
         code, report = run_json("fly", "--no-images", "--calibrator", "growing-gauss-newton", "--initial-error", "10,0.3",

@@ -43,14 +43,17 @@ progress() {
   [ ! -t 2 ] || printf '\r\033[K' >&2
 }
 
-# install_packages LIST...: installs what these files list and this machine lacks.
+# install_packages LIST...: installs what these files list and this machine lacks. PACKAGE=COMMAND in a list asks for the
+# package only where there is no such command: npm, say, comes with other builds of nodejs, which conflict with Debian's.
 install_packages() {
-  local wanted missing as_root=()
+  local entry wanted=() missing as_root=()
   command -v dpkg-query >/dev/null ||
     die "This is no Debian: Helical installs its packages on Debian 12 only." \
       "install what app/packages.txt lists and build with: cmake --preset release && cmake --build --preset release"
-  mapfile -t wanted < <(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d' | sort -u)
-  mapfile -t missing < <(comm -23 <(printf '%s\n' "${wanted[@]}") \
+  while read -r entry; do
+    [[ $entry == *=* ]] && command -v "${entry#*=}" >/dev/null || wanted+=("${entry%%=*}")
+  done < <(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d' | sort -u)
+  mapfile -t missing < <(comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) \
     <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
       sed -n 's/^installed //p' | sort -u))
   [ ${#missing[@]} -gt 0 ] || return 0

@@ -42,6 +42,15 @@ class Scripts(unittest.TestCase):
         self.assertIn(f"{root}/build/logs/bad.log", done.stderr)
         self.assertEqual(done.stdout, "")
 
+    def test_a_package_is_not_installed_for_the_sake_of_a_command_that_is_there(self):
+        with tempfile.TemporaryDirectory() as root:
+            listed = pathlib.Path(root) / "packages.txt"
+            listed.write_text("bash\nno-such-package=bash  # comes with bash\n", encoding="utf-8")
+            done = run("bash", "-c", f"set -euo pipefail; root={root}; source {ROOT}/app/setup.sh; "
+                       f"install_packages {listed}; echo on")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((done.stdout, done.stderr), ("on\n", ""))
+
     def test_no_package_is_listed_twice(self):
         names = []
         for listed in ("app/packages.txt", "tests/packages.txt"):

@@ -1,108 +1,115 @@
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "app/calibration_report.h"
 #include "app/experiment.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
-#include "engine/experiments/calibration_study.h"
+#include "engine/config/resource_files.h"
+#include "engine/config/rig_file.h"
 
 namespace helical {
 namespace {
 
-using nlohmann::json;
+constexpr int kMostKnocks = 200;       // flights of 15 s
+constexpr int kQuietMinutes = 60;      // of three cameras: three camera-hours
+constexpr int kSixteenRounds = 4;
+constexpr double kMemoryFlightS = 3600.0;
+constexpr const char* kSixteen = "sixteen-cameras";
+constexpr const char* kMemory = "memory";
 
 struct Arguments {
   int runs = 200;
   std::uint64_t seed = 1;
+  std::vector<std::string> only;
   bool json = false;
 };
 
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
+std::vector<QuietCondition> quietConditions() {
+  return {{"no-knock-outliers-1", 0.01, kQuietMinutes}, {"no-knock-outliers-10", 0.1, kQuietMinutes}};
 }
 
-json ratiosJson(const CalibrationResult& result,
-                RatioInterval (CalibrationResult::*ratio)(std::size_t) const) {
-  json fields;
-  for (std::size_t mark = 0; mark < kStudyMarksS.size(); ++mark) {
-    const RatioInterval interval = (result.*ratio)(mark);
-    fields[std::to_string(static_cast<int>(kStudyMarksS[mark])) + "s"] = {
-        {"value", number(interval.value)}, {"ci95", {number(interval.low), number(interval.high)}}};
+std::vector<std::string> conditionNames() {
+  std::vector<std::string> names;
+  for (const auto& condition : calibrationConditions())
+    if (std::find(names.begin(), names.end(), condition.name) == names.end()) names.push_back(condition.name);
+  for (const auto& condition : knockConditions()) names.push_back(condition.name);
+  for (const auto& condition : quietConditions()) names.push_back(condition.name);
+  names.insert(names.end(), {kSixteen, kMemory});
+  return names;
+}
+
+/// What was asked for, one after the other, and how far it is.
+class Study {
+ public:
+  explicit Study(const Arguments& arguments) : arguments_(arguments) {
+    report_.runs = arguments.runs;
+    report_.seed = arguments.seed;
   }
-  return fields;
-}
 
-json conditionJson(const CalibrationResult& result) {
-  const Proportion success = result.success();
-  json nees;
-  for (std::size_t mark = 0; mark < kStudyMarksS.size(); ++mark)
-    nees[std::to_string(static_cast<int>(kStudyMarksS[mark])) + "s"] = number(result.meanNees(mark));
-  return {
-      {"name", result.condition.name},
-      {"calibrator", result.condition.calibrator},
-      {"rmse_over_crlb", ratiosJson(result, &CalibrationResult::positionRatio)},
-      {"orientation_rmse_over_crlb", ratiosJson(result, &CalibrationResult::orientationRatio)},
-      {"success", success.value},
-      {"success_ci95", {success.low, success.high}},
-      {"time_to_1cm_s",
-       {{"median", number(result.convergedQuantile(0.5))}, {"p90", number(result.convergedQuantile(0.9))}}},
-      {"nees", nees},
-      {"nees_in_band", result.neesInBand()},
-      {"step_us", {{"mean", result.meanStepUs()}, {"p999", result.slowStepUs()}}}};
-}
+  CalibrationReport run() {
+    countParts();
+    for (const auto& condition : calibrationConditions())
+      if (wanted(condition.name))
+        report_.conditions.push_back(studyCalibration(
+            condition, arguments_.runs, arguments_.seed,
+            part(condition.name + ", " + condition.calibrator, arguments_.runs)));
+    const RigConfig calibrated = loadRig(resourceFolder() / "rigs" / "calibrated.toml");
+    const int knocks = std::min(arguments_.runs, kMostKnocks);
+    for (const auto& condition : knockConditions())
+      if (wanted(condition.name))
+        report_.knocks.push_back(
+            studyKnocks(calibrated, condition, knocks, arguments_.seed, part(condition.name, knocks)));
+    for (const auto& condition : quietConditions())
+      if (wanted(condition.name))
+        report_.quiet.emplace_back(condition,
+                                   studyFalseAlarms(calibrated, condition.outliers, condition.minutes,
+                                                    arguments_.seed, part(condition.name, condition.minutes)));
+    if (wanted(kSixteen))
+      report_.sixteen =
+          studySixteenCameras(kSixteenRounds, arguments_.seed, part(kSixteen, kSixteenRounds));
+    if (wanted(kMemory)) {
+      const auto progress = part(kMemory, 1000);
+      report_.memory = studyMemory(loadRig(resourceFolder() / "rigs" / "paper.toml"), kMemoryFlightS, arguments_.seed,
+                                   [&](double done) { progress(static_cast<int>(1000.0 * done)); });
+    }
+    return std::move(report_);
+  }
 
-std::string reportJson(const Arguments& arguments, const std::vector<CalibrationResult>& results) {
-  json report{{"runs", arguments.runs}, {"seed", arguments.seed}, {"conditions", json::array()}};
-  for (const auto& result : results) report["conditions"].push_back(conditionJson(result));
-  return report.dump(2) + "\n";
-}
+ private:
+  bool wanted(const std::string& name) const {
+    return arguments_.only.empty() ||
+           std::find(arguments_.only.begin(), arguments_.only.end(), name) != arguments_.only.end();
+  }
 
-std::string rowOf(const CalibrationResult& result) {
-  char row[256];
-  const RatioInterval early = result.positionRatio(0), middle = result.positionRatio(1),
-                      late = result.positionRatio(2);
-  std::snprintf(row, sizeof row,
-                "%-23s %-24s %7.2f %7.2f %7.3f %6.3f-%.3f %8.3f %6.2f %6.2f %8.2f %-3s %7.1f %6.0f\n",
-                result.condition.name.c_str(), result.condition.calibrator.c_str(), early.value, middle.value,
-                late.value, late.low, late.high, result.success().value, result.convergedQuantile(0.5),
-                result.convergedQuantile(0.9), result.meanNees(2), result.neesInBand() ? "yes" : "no",
-                result.meanStepUs(), result.slowStepUs());
-  return row;
-}
+  void countParts() {
+    for (const auto& condition : calibrationConditions()) parts_ += wanted(condition.name);
+    for (const auto& condition : knockConditions()) parts_ += wanted(condition.name);
+    for (const auto& condition : quietConditions()) parts_ += wanted(condition.name);
+    parts_ += wanted(kSixteen) + wanted(kMemory);
+  }
 
-std::string reportText(const Arguments& arguments, const std::vector<CalibrationResult>& results) {
-  std::string text =
-      "A camera calibrated in flight, over " + std::to_string(arguments.runs) +
-      " flights of 13 s for each line; position error over its Cramer-Rao bound\n\n"
-      "                                                 RMSE/CRLB at               95 %         within to 1 "
-      "cm, "
-      "0.5 deg  NEES in    us a frame\n"
-      "flights                 method                       1 s     5 s    13 s     interval   1 cm    "
-      "median    p90     at 13 s band   mean  99.9 %\n";
-  for (const auto& result : results) text += rowOf(result);
-  return text + "\nWithin 1 cm: and 0.5 degrees, at 13 s. NEES: 6 where the covariance is true.\n";
-}
+  std::function<void(int)> part(const std::string& note, int runs) {
+    const int begun = begun_++;
+    return [this, note, runs, begun](int done) {
+      progress_.update((begun + static_cast<double>(done) / runs) / parts_, note);
+    };
+  }
+
+  const Arguments& arguments_;
+  CalibrationReport report_;
+  Progress progress_{"Calibrating"};
+  int parts_ = 0, begun_ = 0;
+};
 
 int runExperiment(const Arguments& arguments) {
-  const auto conditions = calibrationConditions();
-  std::vector<CalibrationResult> results;
-  {
-    Progress progress("Calibrating");
-    for (const auto& condition : conditions)
-      results.push_back(studyCalibration(condition, arguments.runs, arguments.seed, [&](int done) {
-        const double share = static_cast<double>(done) / arguments.runs;
-        progress.update(
-            (static_cast<double>(results.size()) + share) / static_cast<double>(conditions.size()),
-            condition.name + ", " + condition.calibrator);
-      }));
-  }
-  const std::string report = arguments.json ? reportJson(arguments, results) : reportText(arguments, results);
-  if (std::fputs(report.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+  const CalibrationReport report = Study(arguments).run();
+  const std::string text = arguments.json ? calibrationReportJson(report) : calibrationReportText(report);
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw Error(ErrorKind::kSystem, "the report cannot be written to standard output", {},
                 "check the disk or the pipe");
   return 0;
@@ -113,12 +120,16 @@ int runExperiment(const Arguments& arguments) {
 void addCalibrationExperiment(CLI::App& experiments, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = experiments.add_subcommand(
-      "calibration", "A camera calibrated in flight: error over its Cramer-Rao bound, every method");
-  command->add_option("--runs", arguments->runs, "Flights for each condition")
+      "calibration",
+      "Cameras calibrated in flight: error over its Cramer-Rao bound, every method; knocks, false alarms, cost, memory");
+  command->add_option("--runs", arguments->runs, "Flights for each condition (of knocks at most 200)")
       ->check(CLI::Range(2, 1000000))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "First seed of everything that is drawn at random")
       ->capture_default_str();
+  command->add_option("--only", arguments->only, "These conditions only, by name")
+      ->check(CLI::IsMember(conditionNames()))
+      ->delimiter(',');
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->callback([arguments, &exit_code] { exit_code = runExperiment(*arguments); });
 }

@@ -146,8 +146,7 @@ Names namesNear(const CameraModel& camera, const MarkerLayout& markers,
 /// under study: balls are named near their true places, and the fit starts there.
 PoseFit fitFrame(const CameraModel& camera, const CalibrationFieldOptions& options,
                  const std::array<Eye, 2>& eyes, const std::array<Look, 2>& looks,
-                 const RigidTransform& truth) {
-  std::array<NamedView, 2> views;
+                 const RigidTransform& truth, std::array<NamedView, 2>& views) {
   for (std::size_t c = 0; c < 2; ++c)
     views[c] = {&camera, eyes[c].pose(), &looks[c].observation,
                 namesNear(camera, options.markers, eyes[c].pose(), truth, looks[c].observation)};
@@ -155,6 +154,17 @@ PoseFit fitFrame(const CameraModel& camera, const CalibrationFieldOptions& optio
                         kInlierSigmas * options.sigma_px);
   fit.ok = fit.ok && fit.inliers >= kFewestInliers;
   return fit;
+}
+
+RigMoment::View namedView(const Look& look, const Names& names, int balls, double sigma_px) {
+  RigMoment::View view;
+  view.variance = static_cast<float>(sigma_px * sigma_px);
+  for (std::size_t m = 0; m < static_cast<std::size_t>(balls); ++m) {
+    if (names[m] < 0) continue;
+    view.seen.set(m);
+    view.pixels[m] = look.observation.centroids[static_cast<std::size_t>(names[m])].pixel.cast<float>();
+  }
+  return view;
 }
 
 std::span<const MarkerId> seenBy(const Look& look) {
@@ -170,6 +180,7 @@ CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationF
   field.camera = CameraModel(640, 480, 567.6, 567.6, 319.5, 239.5);
   std::array<Eye, 2> eyes{Eye(field.camera, placeCamera(-kPi / 4, places), random.fork(2)),
                           Eye(field.camera, placeCamera(kPi / 4, places), random.fork(3))};
+  for (std::size_t c = 0; c < 2; ++c) field.known_cameras[c] = eyes[c].pose();
   field.camera_from_world = placeCamera(kPi, places);
   Eye learner(field.camera, field.camera_from_world, random.fork(4));
   Vector6d off;
@@ -187,7 +198,10 @@ CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationF
     for (std::size_t i = 0; i < static_cast<std::size_t>(own.observation.count); ++i)
       frame.labelled[i] = {own.truth[i], own.observation.centroids[i].pixel,
                            own.observation.centroids[i].covariance};
-    const PoseFit fit = fitFrame(field.camera, options, eyes, looks, truth);
+    std::array<NamedView, 2> views;
+    const PoseFit fit = fitFrame(field.camera, options, eyes, looks, truth, views);
+    for (std::size_t c = 0; c < 2; ++c)
+      frame.known_views[c] = namedView(looks[c], views[c].names, options.markers.count(), options.sigma_px);
     frame.has_pose = fit.ok;
     frame.world_from_body = fit.world_from_body;
     if (fit.ok) frame.pose_covariance = options.sigma_px * options.sigma_px * fit.information.inverse();

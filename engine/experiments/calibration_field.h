@@ -6,6 +6,7 @@
 
 #include "engine/calibration/cramer_rao.h"
 #include "engine/calibration/extrinsic_calibrator.h"
+#include "engine/calibration/rig_moment.h"
 #include "engine/helicopter/marker_layout.h"
 
 namespace helical {
@@ -32,6 +33,7 @@ struct CalibrationField {
     RigidTransform world_from_body;
     Matrix6d pose_covariance = Matrix6d::Zero();
     Observation observation;  ///< of the third camera, without names
+    std::array<RigMoment::View, 2> known_views;  ///< of the first two, named
     std::array<LabelledPixel, kMaxMarkers> labelled;
     CalibrationBound bound;  ///< Cramer-Rao, of all frames so far; false balls count as if they were true
 
@@ -45,6 +47,7 @@ struct CalibrationField {
   };
 
   CameraModel camera;
+  std::array<RigidTransform, 2> known_cameras;  ///< camera_from_world of the first two
   RigidTransform camera_from_world;
   RigidTransform guess;
   std::vector<Frame> frames;

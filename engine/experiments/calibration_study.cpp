@@ -1,7 +1,5 @@
 #include "engine/experiments/calibration_study.h"
 
-#include <time.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -9,7 +7,9 @@
 
 #include "engine/base/random.h"
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/calibration/rig_bundle.h"
 #include "engine/experiments/parallel_runs.h"
+#include "engine/experiments/thread_time.h"
 #include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 
@@ -20,12 +20,6 @@ constexpr double kGoodPosition = 0.01;
 const double kGoodOrientation = toRadians(0.5);
 constexpr double kMarkerErrorM = 1e-3;
 constexpr double kTwoSided95 = 1.96;
-
-double threadMicroseconds() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
-}
 
 MarkerLayout layoutOf(const std::array<Eigen::Vector2d, 4>& places) {
   std::array<Eigen::Vector3d, 4> balls;
@@ -71,6 +65,41 @@ void note(const CameraEstimate& estimate, const CalibrationField& field, const C
   run.nees[mark] = error.dot(estimate.covariance.ldlt().solve(error));
 }
 
+/// The frames so far as moments of all three cameras; what the learner saw is named by its calibrator.
+void addMoment(const CalibrationField::Frame& frame, const ExtrinsicCalibrator& calibrator,
+               std::vector<RigMoment>& moments) {
+  if (!frame.has_pose) return;
+  RigMoment& moment = moments.emplace_back();
+  moment.time = frame.observation.exposure;
+  moment.world_from_body = frame.world_from_body;
+  for (std::size_t c = 0; c < 2; ++c) moment.views[c] = frame.known_views[c];
+  RigMoment::View& own = moment.views[2];
+  own.variance = frame.known_views[0].variance;
+  for (const LabelledPixel& named : calibrator.named()) {
+    own.seen.set(static_cast<std::size_t>(named.marker.index()));
+    own.pixels[static_cast<std::size_t>(named.marker.index())] = named.pixel.cast<float>();
+  }
+}
+
+/// Camera and balls solved for together; the estimate as it is where that fails.
+CameraEstimate selfCalibrated(const CalibrationField& field, const MarkerLayout& markers,
+                              std::vector<RigMoment> moments, const CameraEstimate& estimate) {
+  RigBundle bundle({field.camera, field.camera, field.camera}, markers, static_cast<int>(moments.size()));
+  std::array<BundleCamera, 3> cameras;
+  for (std::size_t c = 0; c < 3; ++c) {
+    cameras[c].used = true;
+    cameras[c].given = c < 2;
+    cameras[c].camera_from_world = c < 2 ? field.known_cameras[c] : estimate.camera_from_world;
+  }
+  RigBundleOptions options;
+  options.marker_sigma_m = kMarkerErrorM;
+  bundle.start(moments, cameras, options);
+  while (!bundle.advance(1000)) {
+  }
+  if (!bundle.succeeded()) return estimate;
+  return {bundle.cameras()[2].camera_from_world, bundle.cameras()[2].covariance, estimate.status};
+}
+
 CalibrationRun calibrateOnce(const CalibrationCondition& condition, std::uint64_t seed) {
   CalibrationFieldOptions options = condition.field;
   if (condition.marker_errors) displaceMarkers(options, seed);
@@ -81,6 +110,7 @@ CalibrationRun calibrateOnce(const CalibrationCondition& condition, std::uint64_
   CalibrationRun run;
   run.converged_s = std::numeric_limits<double>::infinity();
   std::size_t mark = 0;
+  std::vector<RigMoment> moments;
   for (const CalibrationField::Frame& frame : field.frames) {
     const double begin = threadMicroseconds();
     if (frame.has_pose) calibrator->step(frame.view());
@@ -88,14 +118,16 @@ CalibrationRun calibrateOnce(const CalibrationCondition& condition, std::uint64_
     run.step_us_sum += spent;
     run.slowest_steps.push_back(static_cast<float>(spent));
     ++run.steps;
-    const CameraEstimate estimate = calibrator->estimate();
+    CameraEstimate estimate = calibrator->estimate();
     const double now_s = toSeconds(frame.observation.exposure);
     const Vector6d error = cameraPerturbation(estimate.camera_from_world, field.camera_from_world);
     if (std::isinf(run.converged_s) && error.tail<3>().norm() < kGoodPosition &&
         error.head<3>().norm() < kGoodOrientation)
       run.converged_s = now_s;
-    if (mark < kStudyMarksS.size() && now_s >= kStudyMarksS[mark] - 1e-6)
-      note(estimate, field, frame.bound, mark++, run);
+    if (condition.self_calibrates) addMoment(frame, *calibrator, moments);
+    if (mark == kStudyMarksS.size() || now_s < kStudyMarksS[mark] - 1e-6) continue;
+    if (condition.self_calibrates) estimate = selfCalibrated(field, options.markers, moments, estimate);
+    note(estimate, field, frame.bound, mark++, run);
   }
   const auto kept = static_cast<std::ptrdiff_t>(run.slowest_steps.size() / 50);
   std::partial_sort(run.slowest_steps.begin(), run.slowest_steps.begin() + kept, run.slowest_steps.end(),
@@ -105,7 +137,7 @@ CalibrationRun calibrateOnce(const CalibrationCondition& condition, std::uint64_
 }
 
 /// By linearisation: sum of squared errors minus ratio times squared bounds has mean zero.
-RatioInterval rootRatio(const std::vector<CalibrationRun>& runs, std::array<double, 3> CalibrationRun::*error,
+Interval rootRatio(const std::vector<CalibrationRun>& runs, std::array<double, 3> CalibrationRun::*error,
                         std::array<double, 3> CalibrationRun::*bound, std::size_t mark) {
   double errors = 0.0, bounds = 0.0;
   for (const auto& run : runs) {
@@ -122,11 +154,11 @@ RatioInterval rootRatio(const std::vector<CalibrationRun>& runs, std::array<doub
 
 }  // namespace
 
-RatioInterval CalibrationResult::positionRatio(std::size_t mark) const {
+Interval CalibrationResult::positionRatio(std::size_t mark) const {
   return rootRatio(runs, &CalibrationRun::position_m, &CalibrationRun::bound_position_m, mark);
 }
 
-RatioInterval CalibrationResult::orientationRatio(std::size_t mark) const {
+Interval CalibrationResult::orientationRatio(std::size_t mark) const {
   return rootRatio(runs, &CalibrationRun::orientation, &CalibrationRun::bound_orientation, mark);
 }
 
@@ -137,10 +169,10 @@ Proportion CalibrationResult::success() const {
   return proportion(static_cast<int>(good), static_cast<int>(runs.size()));
 }
 
-double CalibrationResult::convergedQuantile(double fraction) const {
+Interval CalibrationResult::convergedQuantile(double fraction) const {
   std::vector<double> values;
   for (const auto& run : runs) values.push_back(run.converged_s);
-  return quantile(std::move(values), fraction);
+  return quantileInterval(values, fraction);
 }
 
 double CalibrationResult::meanNees(std::size_t mark) const {
@@ -196,6 +228,7 @@ std::vector<CalibrationCondition> calibrationConditions() {
       {"guess-180deg-3m", "joint", with(asymmetric, far)},
       {"guess-180deg-3m-square", "joint", with(fieldWith(squareLayout()), far)},
       {"marker-error-1mm", "joint", asymmetric, true},
+      {"marker-error-1mm-self-calibrated", "joint", asymmetric, true, true},
   };
   for (const auto& name : calibratorNames()) {
     if (name == "joint") continue;

@@ -32,11 +32,7 @@ struct CalibrationCondition {
   std::string calibrator;
   CalibrationFieldOptions field;
   bool marker_errors = false;  ///< every ball is 1 mm off its place in the layout, each way at random
-};
-
-/// A ratio with its 95 % confidence interval.
-struct RatioInterval {
-  double value = 0.0, low = 0.0, high = 0.0;
+  bool self_calibrates = false;  ///< the balls' places are solved for at each mark, together with the cameras
 };
 
 struct CalibrationResult {
@@ -44,11 +40,11 @@ struct CalibrationResult {
   std::vector<CalibrationRun> runs;
 
   /// Root mean square error over root mean square bound at a mark.
-  RatioInterval positionRatio(std::size_t mark) const;
-  RatioInterval orientationRatio(std::size_t mark) const;
+  Interval positionRatio(std::size_t mark) const;
+  Interval orientationRatio(std::size_t mark) const;
   /// Within 1 cm and 0.5 degrees at the last mark.
   Proportion success() const;
-  double convergedQuantile(double fraction) const;
+  Interval convergedQuantile(double fraction) const;
   double meanNees(std::size_t mark) const;
   /// Whether the mean lies where 95 % of such means do when the covariance is true, at 5 and at 13 s.
   bool neesInBand() const;

@@ -25,6 +25,20 @@ double quantile(std::vector<double> values, double fraction) {
   return values[below] + share * (values[above] - values[below]);
 }
 
+Interval quantileInterval(const std::vector<double>& values, double fraction) {
+  if (values.empty()) return {quantile(values, fraction), quantile(values, fraction), quantile(values, fraction)};
+  const double n = static_cast<double>(values.size());
+  const double half = kZ95 * std::sqrt(fraction * (1.0 - fraction) / n);
+  const double last = std::max(1.0, n - 1.0);
+  // Whole ranks, outwards: between two values the interval would be too narrow.
+  const auto rank = [&](double share, bool up) {
+    const double place = std::clamp(share, 0.0, 1.0) * last;
+    return (up ? std::ceil(place) : std::floor(place)) / last;
+  };
+  return {quantile(values, fraction), quantile(values, rank(fraction - half, false)),
+          quantile(values, rank(fraction + half, true))};
+}
+
 Proportion proportion(int successes, int runs) {
   if (runs == 0) return {};
   const double n = runs, p = successes / n, z2 = kZ95 * kZ95;

@@ -8,6 +8,14 @@ namespace helical {
 /// that are not finite count as larger than all others.
 double quantile(std::vector<double> values, double fraction);
 
+/// A value with its 95 % confidence interval.
+struct Interval {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+/// A quantile with the interval that order statistics give it, whatever the values' distribution.
+Interval quantileInterval(const std::vector<double>& values, double fraction);
+
 /// A share with its 95 % confidence interval.
 struct Proportion {
   double value = 0.0;

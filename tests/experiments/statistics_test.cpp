@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/random.h"
+
 namespace helical {
 namespace {
 
@@ -20,6 +22,27 @@ TEST(Quantile, ValuesThatAreNotFiniteAreTheLargest) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(quantile({std::nan(""), 1.0, 2.0}, 0.5), 2.0);
   EXPECT_EQ(quantile({infinity, std::nan(""), 2.0}, 0.75), infinity);
+}
+
+TEST(QuantileInterval, HoldsTheTrueMedianNineteenTimesOutOfTwenty) {
+  Random random(11);
+  constexpr int kTrials = 2000;
+  int holds = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> values;
+    for (int i = 0; i < 40; ++i) values.push_back(random.normal());
+    const Interval interval = quantileInterval(values, 0.5);
+    EXPECT_LE(interval.low, interval.value);
+    EXPECT_GE(interval.high, interval.value);
+    holds += interval.low <= 0.0 && interval.high >= 0.0;
+  }
+  EXPECT_GT(holds, 0.93 * kTrials);
+  EXPECT_LT(holds, 0.99 * kTrials);
+}
+
+TEST(QuantileInterval, SaysSoWhenItReachesWhatNeverHappened) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(quantileInterval({1.0, 2.0, 3.0, infinity}, 0.9).high, infinity);
 }
 
 TEST(Proportion, HasWilsonsInterval) {

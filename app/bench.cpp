@@ -4,6 +4,7 @@
 
 #include "app/bench_markers.h"
 #include "app/bench_particles.h"
+#include "app/bench_session.h"
 
 namespace {
 
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
                "helical-bench");
   helical::addMarkersBench(app);
   helical::addParticlesBench(app);
+  helical::addSessionBench(app);
   app.require_subcommand(1);
   try {
     app.parse(argc, argv);

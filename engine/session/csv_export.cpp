@@ -1,5 +1,6 @@
 #include "engine/session/csv_export.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdio>
@@ -138,43 +139,104 @@ constexpr const char* kReadmeHead =
     "1.\n"
     "- true and false are 1 and 0. Images are not exported as tables.\n\n";
 
+/// All tables of an export; those that are not finished are gone with it.
+class Tables {
+ public:
+  Tables(McapReader& session, std::filesystem::path folder) : session_(session), folder_(std::move(folder)) {}
+  ~Tables() {
+    std::error_code ignored;
+    for (const auto& [id, table] : tables_)
+      if (table && !finished_) std::filesystem::remove(table->file(), ignored);
+  }
+  Tables(const Tables&) = delete;
+  Tables& operator=(const Tables&) = delete;
+
+  void add(const McapMessage& message) {
+    std::unique_ptr<Table>& table = tables_[message.channel];
+    if (!table) {
+      const auto channel = session_.channels().find(message.channel);
+      if (channel == session_.channels().end()) return;
+      const auto schema = session_.schemas().find(channel->second.schema);
+      if (schema == session_.schemas().end()) return;
+      table = std::make_unique<Table>(folder_ / fileNameOf(channel->second.topic), channel->second, schema->second);
+    }
+    table->add(message);
+  }
+  /// What their columns mean.
+  std::string finish(std::vector<std::filesystem::path>& files) {
+    std::string descriptions;
+    for (const auto& [id, table] : tables_) {
+      if (!table) continue;
+      table->close();
+      descriptions += table->description();
+      files.push_back(table->file());
+    }
+    finished_ = true;
+    return descriptions;
+  }
+
+ private:
+  McapReader& session_;
+  std::filesystem::path folder_;
+  std::map<std::uint16_t, std::unique_ptr<Table>> tables_;
+  bool finished_ = false;
+};
+
+McapReader::Selection chosenChannels(const McapReader& session, const CsvSelection& selection) {
+  McapReader::Selection chosen = withoutImages(session);
+  chosen.from = selection.span.from;
+  chosen.to = selection.span.to;
+  const std::vector<std::string> known = tableTopics(session);
+  for (const auto& topic : selection.topics)
+    if (std::find(known.begin(), known.end(), topic) == known.end())
+      throw Error(ErrorKind::kInput, "the session has no stream " + topic, session.file().string(),
+                  known.empty() ? "give another session" : "give one such as " + known.front());
+  if (!selection.topics.empty())
+    std::erase_if(chosen.channels, [&](std::uint16_t id) {
+      return !selection.topics.contains(session.channels().at(id).topic);
+    });
+  return chosen;
+}
+
 }  // namespace
 
-CsvExport exportCsv(McapReader& session, const std::filesystem::path& folder) {
+std::vector<std::string> tableTopics(const McapReader& session) {
+  std::vector<std::string> topics;
+  for (const std::uint16_t id : withoutImages(session).channels) topics.push_back(session.channels().at(id).topic);
+  std::sort(topics.begin(), topics.end());
+  return topics;
+}
+
+CsvExport exportCsv(McapReader& session, const std::filesystem::path& folder, const CsvSelection& selection,
+                    const ExportProgress& progress) {
+  const McapReader::Selection chosen = chosenChannels(session, selection);
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ErrorKind::kInput, "the folder for the export cannot be made: " + failure.message(),
                 folder.string(), kCure);
-  std::map<std::uint16_t, std::unique_ptr<Table>> tables;
   CsvExport result;
-  result.reading = session.read(withoutImages(session), [&](const McapMessage& message) {
-    std::unique_ptr<Table>& table = tables[message.channel];
-    if (!table) {
-      const auto channel = session.channels().find(message.channel);
-      if (channel == session.channels().end()) return;
-      const auto schema = session.schemas().find(channel->second.schema);
-      if (schema == session.schemas().end()) return;
-      table = std::make_unique<Table>(folder / fileNameOf(channel->second.topic), channel->second,
-                                      schema->second);
-    }
-    table->add(message);
-  });
-  std::string readme = kReadmeHead;
-  for (const auto& [id, table] : tables) {
-    if (!table) continue;
-    table->close();
-    readme += table->description();
-    result.files.push_back(table->file());
+  Tables tables(session, folder);
+  for (std::size_t chunk = 0; chunk < session.chunkCount(); ++chunk) {
+    if (progress) progress(static_cast<double>(chunk) / static_cast<double>(session.chunkCount()));
+    if (!session.mayHold(chunk, chosen)) continue;
+    const McapReader::Reading one =
+        session.readChunk(chunk, chosen, [&](const McapMessage& message) { tables.add(message); });
+    result.reading.messages += one.messages;
+    result.reading.chunks += one.chunks;
+    result.reading.damaged_chunks += one.damaged_chunks;
   }
+  const std::string readme = kReadmeHead + tables.finish(result.files);
   const auto write = [&](const std::string& name, const std::string& content) {
     std::ofstream stream = openFile(folder / name);
     stream << content;
     closeFile(stream, folder / name);
     result.files.push_back(folder / name);
   };
-  for (const auto& attachment : session.attachments())
-    write(std::filesystem::path(attachment.name).filename().string(), attachment.content);
+  for (const auto& attachment : session.attachments()) {
+    const std::string name = std::filesystem::path(attachment.name).filename().string();
+    if (!name.empty() && name != "." && name != "..") write(name, attachment.content);
+  }
   write("README.md", readme);
   return result;
 }

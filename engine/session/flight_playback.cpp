@@ -24,7 +24,8 @@ FlightPlayback::FlightPlayback(const std::filesystem::path& session, std::shared
       clock_(std::move(clock)),
       decoder_(reader_, settings_.rig),
       cursor_(reader_),
-      images_(reader_, settings_.rig) {
+      images_(reader_, settings_.rig),
+      ticks_(kMostTicks) {
   begin_ = reader_.firstTime();
   end_ = reader_.lastTime();
   if (reader_.chunkCount() == 0 || end_ <= begin_)
@@ -113,11 +114,7 @@ void FlightPlayback::take(const McapMessage& message, bool queue_ticks) {
       case FlightDecoder::Found::kTick:
         fresh_ = true;
         if (!queue_ticks) return;
-        if (ticks_.size() == kMostTicks) {
-          ticks_.pop_front();
-          ++lost_;
-        }
-        ticks_.push_back(decoder_.tick());
+        lost_ += !ticks_.push(decoder_.tick());
         return;
       case FlightDecoder::Found::kObservation: {
         Picture& picture = pictures_[indexOf(decoder_.observation().camera)];
@@ -157,10 +154,7 @@ bool FlightPlayback::pollCalibration(CameraId camera) {
 }
 
 bool FlightPlayback::nextTick(EngineSnapshot& tick) {
-  if (ticks_.empty()) return false;
-  tick = ticks_.front();
-  ticks_.pop_front();
-  return true;
+  return ticks_.pop(tick);
 }
 
 bool FlightPlayback::nextEvent(EngineEvent& event) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "engine/session/message_cursor.h"
 #include "engine/session/picture_finder.h"
 #include "engine/session/session_settings.h"
+#include "engine/session/tick_ring.h"
 
 namespace helical {
 
@@ -97,7 +97,7 @@ class FlightPlayback final : public FlightView {
   std::optional<Loop> loop_;
   std::uint64_t jumps_ = 0, lost_ = 0;
   bool fresh_ = false;
-  std::deque<EngineSnapshot> ticks_;
+  TickRing ticks_;
   std::array<Picture, kMaxCameras> pictures_{};
   std::array<std::uint64_t, kMaxCameras> beliefs_shown_{};
 };

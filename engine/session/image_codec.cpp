@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kJpegQuality = 90;
 constexpr std::uint32_t kLargestSide = 1u << 14;
+constexpr std::size_t kMostPixels = 64u << 20;
 
 struct Encoding {
   PixelFormat format;
@@ -48,6 +49,23 @@ cv::Mat toBgr(const std::uint8_t* pixels, int width, int height, std::size_t str
 BgrImage copyOf(const cv::Mat& image) {
   const cv::Mat packed = image.isContinuous() ? image : image.clone();
   return {packed.cols, packed.rows, {packed.data, packed.data + packed.total() * packed.elemSize()}};
+}
+
+/// Of a JPEG, from its frame header: what it claims is what its decoder would take memory for.
+bool hasReasonableSize(std::string_view jpeg) {
+  const auto at = [&](std::size_t i) { return static_cast<unsigned>(static_cast<std::uint8_t>(jpeg[i])); };
+  if (jpeg.size() < 4 || at(0) != 0xff || at(1) != 0xd8) return false;
+  for (std::size_t i = 2; i + 9 <= jpeg.size();) {
+    if (at(i) != 0xff) return false;
+    const unsigned marker = at(i + 1);
+    const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (frame) {
+      const std::size_t height = at(i + 5) << 8 | at(i + 6), width = at(i + 7) << 8 | at(i + 8);
+      return width > 0 && height > 0 && width * height <= kMostPixels;
+    }
+    i += 2 + (at(i + 2) << 8 | at(i + 3));
+  }
+  return false;
 }
 
 }  // namespace
@@ -94,9 +112,15 @@ BgrImage decodeCompressedImage(std::string_view payload) {
   in.getText();
   in.getText();
   const std::string_view bytes = in.getBytes();
-  const cv::Mat image = cv::imdecode(std::vector<std::uint8_t>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
-  if (image.empty()) throw CutShort();
-  return copyOf(image);
+  if (!hasReasonableSize(bytes)) throw CutShort();
+  try {
+    const cv::Mat image =
+        cv::imdecode(std::vector<std::uint8_t>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
+    if (image.empty()) throw CutShort();
+    return copyOf(image);
+  } catch (const cv::Exception&) {
+    throw CutShort();
+  }
 }
 
 }  // namespace helical

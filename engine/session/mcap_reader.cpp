@@ -18,7 +18,10 @@ namespace {
 
 constexpr std::uint64_t kLargestChunk = 64u << 20;
 constexpr std::uint64_t kLargestSmallRecord = 16u << 20;  // schemas, channels, attachments
-constexpr std::uint64_t kSearchWindow = 1u << 20;
+constexpr std::uint64_t kMostKept = 256u << 20;              // of them all together
+constexpr std::uint64_t kSearchWindow = 1u << 16;
+constexpr std::uint64_t kMostGaps = 10'000;  // a file made of nothing else would be searched for hours
+constexpr TimeNs kLatest = TimeNs{1} << 61;  // differences of times stay within their type
 constexpr std::uint64_t kLargestSummary = 256u << 20;  // of a day's flight
 constexpr std::uint64_t kFooterContent = 8 + 8 + 4;
 constexpr std::uint64_t kChunkHead = 8 + 8 + 8 + 4;  // before the name of its compression
@@ -86,6 +89,7 @@ void McapReader::scan() {
     if (!headAt(at, head)) {
       // Somebody changed a length, or the file was cut here: the next chunk is known by its compression.
       sound = false;
+      if (gaps_ >= kMostGaps) return;
       at = before = nextChunk(std::max(before + 1, parts_.empty() ? 0 : parts_.back().offset));
       gaps_ += at < size_;
       continue;
@@ -133,6 +137,7 @@ bool McapReader::takeSummary() {
     complete_ = true;
   } catch (const CutShort&) {
     schemas_.clear(), channels_.clear(), attachments_.clear(), parts_.clear();
+    kept_ = 0;
   }
   return complete_;
 }
@@ -142,6 +147,7 @@ void McapReader::takeChunkIndex(std::string_view content) {
   Part part;
   part.start = static_cast<TimeNs>(in.get<std::uint64_t>());
   part.end = static_cast<TimeNs>(in.get<std::uint64_t>());
+  if (part.start < 0 || part.end > kLatest || part.start > part.end) throw CutShort();
   const auto at = in.get<std::uint64_t>(), length = in.get<std::uint64_t>();
   if (at > size_ || length > size_ - at || length < kMcapRecordHead) throw CutShort();
   part.offset = at + kMcapRecordHead;
@@ -169,6 +175,10 @@ void McapReader::takePart(const Head& head, std::uint64_t offset) {
     ByteReader in(times);
     part.start = static_cast<TimeNs>(in.get<std::uint64_t>());
     part.end = static_cast<TimeNs>(in.get<std::uint64_t>());
+    if (part.start < 0 || part.end > kLatest || part.start > part.end) {
+      part.start = 0;  // its head is damaged: nobody knows when
+      part.end = std::numeric_limits<TimeNs>::max();
+    }
   }
   parts_.push_back(std::move(part));
 }
@@ -218,7 +228,14 @@ std::uint64_t McapReader::nextChunk(std::uint64_t from) const {
   return size_;
 }
 
+/// A small file can name the same large attachment over and over, or pack millions of schemas.
+void McapReader::keep(std::size_t bytes) {
+  kept_ += bytes;
+  if (kept_ > kMostKept) throw CutShort();
+}
+
 void McapReader::takeSchema(std::string_view content) {
+  keep(content.size());
   ByteReader in(content);
   McapSchema schema;
   schema.id = in.get<std::uint16_t>();
@@ -229,6 +246,7 @@ void McapReader::takeSchema(std::string_view content) {
 }
 
 void McapReader::takeChannel(std::string_view content) {
+  keep(content.size());
   ByteReader in(content);
   McapChannel channel;
   channel.id = in.get<std::uint16_t>();
@@ -239,6 +257,7 @@ void McapReader::takeChannel(std::string_view content) {
 }
 
 void McapReader::takeAttachment(std::string_view content) {
+  keep(content.size());
   ByteReader in(content);
   in.get<std::uint64_t>();
   in.get<std::uint64_t>();
@@ -355,6 +374,7 @@ void McapReader::readRecords(std::string_view records, const std::function<void(
     message.get<std::uint32_t>();
     shown.log_time = static_cast<TimeNs>(message.get<std::uint64_t>());
     shown.publish_time = static_cast<TimeNs>(message.get<std::uint64_t>());
+    if (shown.log_time < 0 || shown.log_time > kLatest) throw CutShort();
     shown.payload = message.rest();
     show(shown);
   }

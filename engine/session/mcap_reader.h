@@ -106,6 +106,7 @@ class McapReader {
   void takeSchema(std::string_view content);
   void takeChannel(std::string_view content);
   void takeAttachment(std::string_view content);
+  void keep(std::size_t bytes);
   bool readChunk(const Part& part, const std::function<void(const McapMessage&)>& show);
   void readRecords(std::string_view records, const std::function<void(const McapMessage&)>& show);
 
@@ -115,6 +116,7 @@ class McapReader {
   bool complete_ = false;
   bool data_ended_ = false;
   std::uint64_t gaps_ = 0;
+  std::uint64_t kept_ = 0;  ///< bytes of schemas, channels and attachments
   std::string profile_, library_;
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kTime = "builtin_interfaces/Time";
 constexpr std::uint32_t kLongestList = 1u << 20;
+constexpr std::size_t kMostColumns = 1u << 14;
 
 constexpr std::string_view kNumbers[] = {"bool",   "byte",  "char",   "float32", "float64",
                                          "int8",   "uint8", "int16",  "uint16",  "int32",
@@ -97,6 +98,7 @@ void RosMessage::addColumns(const std::string& type, const std::string& prefix, 
   if (found == types_.end()) refuse("the type " + type + " is not defined");
   if (std::count(prefix.begin(), prefix.end(), '.') > 16) refuse("types inside each other without end");
   for (const Field& field : found->second) {
+    if (columns_.size() > kMostColumns) refuse("more columns than a table can have");
     const std::string name = prefix + field.name;
     if (isPlain(field.type)) {
       if (field.count <= 0) columns_.push_back({name, unitOf(name_, name, 0)});

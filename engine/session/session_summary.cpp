@@ -31,6 +31,9 @@ SessionSample::Camera sampleOf(const CameraSnapshot& camera, int markers) {
   sample.position_sigma = known ? std::sqrt(estimate.covariance.bottomRightCorner<3, 3>().trace()) : kUnknown;
   sample.position_bound = camera.calibration_bound ? camera.calibration_bound->position_m : kUnknown;
   sample.residual_px = camera.track.selected_count > 0 ? camera.track.residual_px : kUnknown;
+  sample.latency_ms = camera.frames > 0 ? 1e-6 * static_cast<double>(camera.latency) : kUnknown;
+  sample.effective_sample_size =
+      camera.effective_sample_size > 0.0 ? camera.effective_sample_size : kUnknown;
   for (int m = 0; m < markers; ++m)
     if (camera.track.markers[static_cast<std::size_t>(m)].selected)
       sample.selected = static_cast<std::uint16_t>(sample.selected | (1u << m));
@@ -65,26 +68,31 @@ SessionSample sampleOf(const EngineSnapshot& tick) {
 
 }  // namespace
 
-SessionSummary summarize(McapReader& session, const std::function<void(double)>& progress) {
+SessionSummary summarize(McapReader& session, const ExportProgress& progress, const ExportSpan& span) {
   SessionSummary summary;
   summary.file = session.file().string();
   summary.settings = fromAttachments(session.attachments(), summary.file);
   summary.complete = session.complete();
-  const double length_s = toSeconds(session.lastTime() - session.firstTime());
+  summary.rotors_on_s = kUnknown;
+  const TimeNs begin = std::max(span.from, session.firstTime()), end = std::min(span.to, session.lastTime());
+  const double length_s = std::max(1e-3, toSeconds(end - begin));
   const auto ticks = static_cast<std::uint64_t>(length_s * summary.settings.rig.control.rate_hz);
   const std::uint64_t stride = 1 + ticks / kMostSamples;
   FlightDecoder decoder(session, summary.settings.rig);
   session.read(withoutImages(session), [&](const McapMessage& message) {
     const FlightDecoder::Found found = decoder.take(message);
-    if (found == FlightDecoder::Found::kEvent) summary.events.push_back(decoder.event());
-    if (found != FlightDecoder::Found::kTick) return;
+    if (found == FlightDecoder::Found::kEvent && span.holds(decoder.event().time))
+      summary.events.push_back(decoder.event());
+    if (found != FlightDecoder::Found::kTick || !span.holds(decoder.tick().time)) return;
     const EngineSnapshot& tick = decoder.tick();
+    if (rotorsTurn(tick.phase) && !(summary.rotors_on_s <= toSeconds(tick.time)))
+      summary.rotors_on_s = toSeconds(tick.time);
     summary.score.add(tick);
     if (summary.ticks % stride == 0) summary.samples.push_back(sampleOf(tick));
-    if (++summary.ticks % 600 == 0) progress(std::min(1.0, toSeconds(tick.time) / length_s));
+    if (++summary.ticks % 600 == 0) progress(std::min(1.0, toSeconds(tick.time - begin) / length_s));
   });
   if (summary.ticks == 0)
-    throw Error(ErrorKind::kInput, "the session ends before the flight's first moment", summary.file,
+    throw Error(ErrorKind::kInput, "the session holds no moment of a flight, or none in this span", summary.file,
                 "give a longer one");
   summary.last = decoder.tick();
   summary.crash_reason = summary.last.verdict.crashed ? summary.last.verdict.reason : "";

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "engine/pipeline/flight_score.h"
+#include "engine/session/export_selection.h"
 #include "engine/session/mcap_reader.h"
 #include "engine/session/session_settings.h"
 
@@ -19,6 +19,8 @@ struct SessionSample {
     double orientation_sigma = 0.0;                            ///< rad
     double position_bound = 0.0;                               ///< m: no estimate can be better
     double residual_px = 0.0;
+    double effective_sample_size = 0.0;  ///< of its calibrator's hypotheses
+    double latency_ms = 0.0;             ///< mid-exposure to its use, newest frame
     std::uint16_t selected = 0;  ///< bit m: marker m was used in its newest frame
     CameraStatus status = CameraStatus::kUncalibrated;
   };
@@ -40,6 +42,7 @@ struct SessionSummary {
   std::string file;
   bool complete = false;  ///< the file was closed properly
   double begin_s = 0.0, end_s = 0.0;
+  double rotors_on_s = 0.0;  ///< when they first turned; NaN if they never did
   std::uint64_t ticks = 0;
   FlightScore score;
   EngineSnapshot last;  ///< without its words
@@ -49,7 +52,7 @@ struct SessionSummary {
   std::vector<std::string> methods;    ///< by which each camera's pose was learnt; empty: it was given
 };
 
-/// Goes through the session once. `progress` hears of 0..1. Throws Error(kInput) when it is none of ours.
-SessionSummary summarize(McapReader& session, const std::function<void(double)>& progress);
+/// Goes through the session, or a span of it, once. Throws Error(kInput) when it is none of ours.
+SessionSummary summarize(McapReader& session, const ExportProgress& progress, const ExportSpan& span = {});
 
 }  // namespace helical

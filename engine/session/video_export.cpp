@@ -4,16 +4,16 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <memory>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "engine/base/error.h"
+#include "engine/session/film_writer.h"
 #include "engine/session/flight_playback.h"
 
 namespace helical {
 namespace {
 
-constexpr double kPicturesPerSecond = 30.0;
 constexpr int kSubpixelBits = 4;
 const cv::Scalar kFound(60, 220, 255), kUsed(90, 230, 90), kExpected(255, 160, 60), kPaper(255, 255, 255);
 
@@ -51,11 +51,11 @@ void drawLine(cv::Mat& image, const std::string& camera, const EngineSnapshot& n
   cv::putText(image, text.data(), at, cv::FONT_HERSHEY_SIMPLEX, 0.5, kPaper, 1, cv::LINE_AA);
 }
 
-/// One camera's film: opened with its first picture, in the best coding that this machine has.
+/// One camera's film.
 class Film {
  public:
   Film(std::filesystem::path file, CameraId camera, std::string name)
-      : file_(std::move(file)), camera_(camera), name_(std::move(name)) {}
+      : writer_(std::make_unique<FilmWriter>(std::move(file))), camera_(camera), name_(std::move(name)) {}
 
   void add(FlightPlayback& playback) {
     playback.pollPicture(camera_);
@@ -67,26 +67,14 @@ class Film {
     drawFound(image, picture.observation);
     drawMarkers(image, now.cameras[static_cast<std::size_t>(camera_.index())].track, now.marker_count);
     drawLine(image, name_, now);
-    if (!writer_.isOpened()) open(image.size());
-    writer_.write(image);
+    writer_->add(image.data, image.cols, image.rows, image.step);
   }
-  bool begun() const { return writer_.isOpened(); }
-  const std::filesystem::path& file() const { return file_; }
+  FilmWriter& writer() { return *writer_; }
 
  private:
-  void open(cv::Size size) {
-    for (const char* coding : {"avc1", "mp4v"}) {
-      const int code = cv::VideoWriter::fourcc(coding[0], coding[1], coding[2], coding[3]);
-      if (writer_.open(file_.string(), cv::CAP_FFMPEG, code, kPicturesPerSecond, size)) return;
-    }
-    throw Error(ErrorKind::kSystem, "the film cannot be written", file_.string(),
-                "choose a folder that can be written to; OpenCV needs FFmpeg (libopencv-videoio)");
-  }
-
-  std::filesystem::path file_;
+  std::unique_ptr<FilmWriter> writer_;
   CameraId camera_;
   std::string name_;
-  cv::VideoWriter writer_;
 };
 
 std::string wordOf(const std::string& label) {
@@ -99,7 +87,7 @@ std::string wordOf(const std::string& label) {
 }  // namespace
 
 VideoExport exportVideo(const std::filesystem::path& session, const std::filesystem::path& folder,
-                        const std::function<bool(double)>& progress) {
+                        const ExportProgress& progress, const ExportSpan& span) {
   FlightPlayback playback(session, std::make_shared<ManualClock>());
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
@@ -120,16 +108,18 @@ VideoExport exportVideo(const std::filesystem::path& session, const std::filesys
   if (films.empty())
     throw Error(ErrorKind::kInput, "the session holds no images to make a film of", session.string(),
                 "record them: helical fly --session-images jpeg");
-  const TimeNs period = fromSeconds(1.0 / kPicturesPerSecond);
-  for (TimeNs now = playback.begin(); now <= playback.end(); now += period) {
+  const TimeNs period = fromSeconds(1.0 / FilmWriter::kPicturesPerSecond);
+  const TimeNs begin = std::max(playback.begin(), span.from), end = std::min(playback.end(), span.to);
+  for (TimeNs now = begin; now <= end; now += period) {
+    progress(static_cast<double>(now - begin) / static_cast<double>(std::max<TimeNs>(1, end - begin)));
     playback.seek(now);
     for (Film& film : films) film.add(playback);
-    const double done =
-        static_cast<double>(now - playback.begin()) / static_cast<double>(playback.end() - playback.begin());
-    if (!progress(done)) break;
   }
-  for (const Film& film : films)
-    if (film.begun()) result.files.push_back(film.file());
+  for (Film& film : films) {
+    if (!film.writer().begun()) continue;
+    film.writer().finish();
+    result.files.push_back(film.writer().file());
+  }
   return result;
 }
 

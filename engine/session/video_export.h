@@ -1,9 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
+
+#include "engine/session/export_selection.h"
 
 namespace helical {
 
@@ -14,10 +15,9 @@ struct VideoExport {
 
 /// Writes an MP4 film of each camera whose images a session holds, at 30 pictures a second of the flight's
 /// time, with what was found in them drawn on top: centroids, the markers' names, where they were expected,
-/// time and phase. Files are `camera_LABEL.mp4` in `folder`, which is made if need be. `progress` hears of
-/// 0..1 and ends it by returning false; the films are then as long as they are. Throws Error for a session
-/// that cannot be read and a folder or film that cannot be written.
+/// time and phase. Files are `camera_LABEL.mp4` in `folder`, which is made if need be. Throws Error for a
+/// session that cannot be read and a folder or film that cannot be written.
 VideoExport exportVideo(const std::filesystem::path& session, const std::filesystem::path& folder,
-                        const std::function<bool(double)>& progress);
+                        const ExportProgress& progress, const ExportSpan& span = {});
 
 }  // namespace helical

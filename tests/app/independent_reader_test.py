@@ -98,6 +98,28 @@ class IndependentReader(unittest.TestCase):
         os.remove(file)
         return float(flight.stdout) - before["last_s"]
 
+    def test_disks_that_are_full_at_any_moment(self):
+        """The file opens and lacks a quarter of a second at most, the alarm is raised, the flight goes on."""
+        draw = random.Random(8)
+        sizes = [draw.randrange(60_000, 400_000) for _ in range(KILLS)]
+        with concurrent.futures.ThreadPoolExecutor(2) as several:
+            losses = list(several.map(lambda n: self.fill(n, sizes[n]), range(KILLS)))
+        print(f"filled {KILLS} disks: {1e3 * max(losses):.0f} ms lost at most", file=sys.stderr)
+        self.assertLessEqual(max(losses), LOST_AT_MOST_S)
+
+    def fill(self, number, size):
+        file = self.folder / f"filled{number}.mcap"
+        flight = subprocess.run([TOOLS / "killed_flight", file, str(number), "7", str(size)], capture_output=True,
+                                text=True, timeout=60, check=True)
+        recorded, flown, alarm = flight.stdout.split()
+        self.assertGreater(float(flown), float(recorded) + 0.5, "the flight goes on")
+        self.assertEqual(alarm, "1")
+        before = check(file, "--cut")
+        self.assertEqual(run("recover", file).returncode, 0)
+        after = check(file)
+        self.assertEqual((after["messages"], after["last_s"]), (before["messages"], before["last_s"]))
+        return float(recorded) - before["last_s"]
+
     def test_full_disks(self):
         draw = random.Random(7)
         for number in range(3):

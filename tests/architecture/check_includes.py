@@ -26,7 +26,7 @@ UI_MAY_INCLUDE = re.compile(
     r"|engine/cameras/frame\.h"
     r"|engine/markers/(marker_options|observation)\.h"
     r"|engine/experiments/flight_trace\.h"
-    r"|engine/session/(flight_playback|session_summary)\.h"
+    r"|engine/session/(export_selection|film_writer|flight_playback|session_comparison|session_summary)\.h"
     r"|engine/tracking/track\.h)$"
 )
 

@@ -142,7 +142,7 @@ int calibrate(const RigArguments& arguments) {
     calibration = calibrateRig(cameras, std::move(rows), arguments.observations, options,
                                [&](double done) { progress.update(done); });
   }
-  const bool bad = calibration.verdict == Verdict::kBad;
+  const bool bad = calibration.verdict == RigVerdict::kBad;
   if (!bad) writeRig(arguments, calibration);
   if (arguments.json)
     std::printf("%s\n", toJson(calibration).dump(1).c_str());

@@ -33,7 +33,7 @@ TEST(RigCalibration, BoardSetsPosesAndScale) {
   recording.duration_s = 4.0;
   const MadeRecording made = wavedBoard(recording, 11);
   const RigCalibration solved = solve(made.unposed(), made.rows);
-  EXPECT_EQ(solved.verdict, Verdict::kGood) << reasonsOf(solved);
+  EXPECT_EQ(solved.verdict, RigVerdict::kGood) << reasonsOf(solved);
   EXPECT_EQ(solved.target, TargetKind::kBody);
   EXPECT_TRUE(solved.metric);
   const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), false);
@@ -47,7 +47,7 @@ TEST(RigCalibration, NamedMarkersGiveShapeButNoScale) {
   recording.duration_s = 5.0;
   const MadeRecording made = namedMarkers(recording, 12);
   const RigCalibration solved = solve(made.unposed(), made.rows);
-  EXPECT_EQ(solved.verdict, Verdict::kGood) << reasonsOf(solved);
+  EXPECT_EQ(solved.verdict, RigVerdict::kGood) << reasonsOf(solved);
   EXPECT_EQ(solved.target, TargetKind::kMarkers);
   EXPECT_FALSE(solved.metric);
   const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), true);
@@ -60,7 +60,7 @@ TEST(RigCalibration, MarkersThatStandStillAreOnePointEach) {
   const RigCalibration solved = solve(made.unposed(), made.rows);
   EXPECT_EQ(solved.target, TargetKind::kStillMarkers);
   EXPECT_EQ(solved.items, 60);
-  EXPECT_NE(solved.verdict, Verdict::kBad) << reasonsOf(solved);
+  EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
   EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.02);
 }
 
@@ -71,7 +71,7 @@ TEST(RigCalibration, WavedLightWithOutliersThatAreRejectedAndCounted) {
     recording.outliers = outliers;
     const MadeRecording made = wavedLight(recording, 14);
     const RigCalibration solved = solve(made.unposed(), made.rows);
-    EXPECT_NE(solved.verdict, Verdict::kBad) << reasonsOf(solved);
+    EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
     const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), true);
     EXPECT_LT(errors.degrees, 0.15) << outliers;
     EXPECT_LT(errors.metres, 0.015) << outliers;
@@ -93,7 +93,7 @@ TEST(RigCalibration, CamerasThatExposeOnTheirOwnAreInterpolated) {
   const MadeRecording made = wavedLight(recording, 15);
   const RigCalibration solved = solve(made.unposed(), made.rows);
   EXPECT_EQ(solved.timing, Timing::kInterpolated);
-  EXPECT_NE(solved.verdict, Verdict::kBad) << reasonsOf(solved);
+  EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
   EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.015);
 }
 
@@ -105,7 +105,7 @@ TEST(RigCalibration, GivenPosesStandAndSetWorldAndScale) {
   cameras[0].camera_from_world = made.cameras[0].camera_from_world;
   cameras[2].camera_from_world = made.cameras[2].camera_from_world;
   const RigCalibration solved = solve(cameras, made.rows);
-  EXPECT_EQ(solved.verdict, Verdict::kGood) << reasonsOf(solved);
+  EXPECT_EQ(solved.verdict, RigVerdict::kGood) << reasonsOf(solved);
   EXPECT_TRUE(solved.metric);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const Vector6d error =
@@ -122,7 +122,7 @@ TEST(RigCalibration, GivenPosesThatWereMovedAreNotBelieved) {
   cameras[1].camera_from_world =
       perturbCamera(*made.cameras[1].camera_from_world, (Vector6d() << 0.1, 0, 0, 0, 0, 0).finished());
   const RigCalibration solved = solve(cameras, made.rows);
-  EXPECT_EQ(solved.verdict, Verdict::kBad);
+  EXPECT_EQ(solved.verdict, RigVerdict::kBad);
   EXPECT_NE(reasonsOf(solved).find("given poses disagree"), std::string::npos);
 }
 
@@ -192,7 +192,7 @@ TEST(RigCalibration, CameraThatSharesNothingIsNamed) {
   for (PointRow& row : made.rows.rows)
     if (row.camera == 3) row.time_s += 1000.0;
   const RigCalibration solved = solve(made.unposed(), made.rows);
-  EXPECT_EQ(solved.verdict, Verdict::kBad);
+  EXPECT_EQ(solved.verdict, RigVerdict::kBad);
   EXPECT_FALSE(solved.cameras[3].camera_from_world.has_value());
   EXPECT_NE(reasonsOf(solved).find("camera 4 shares no observation"), std::string::npos) << reasonsOf(solved);
 }
@@ -204,7 +204,7 @@ TEST(RigCalibration, CameraThatOnlyOneOtherSeesWithHasNoScale) {
     return (row.time_s < 5.0) ? row.camera == 3 : row.camera == 0 || row.camera == 1;
   });
   const RigCalibration solved = solve(made.unposed(), made.rows);
-  EXPECT_EQ(solved.verdict, Verdict::kBad);
+  EXPECT_EQ(solved.verdict, RigVerdict::kBad);
 }
 
 TEST(RigCalibration, NoiseIsNoCalibration) {
@@ -213,7 +213,7 @@ TEST(RigCalibration, NoiseIsNoCalibration) {
   MadeRecording made = wavedLight(recording, 22);
   Random random(5);
   for (PointRow& row : made.rows.rows) row.pixel = {random.uniform(0, 640), random.uniform(0, 480)};
-  EXPECT_EQ(solve(made.unposed(), made.rows).verdict, Verdict::kBad);
+  EXPECT_EQ(solve(made.unposed(), made.rows).verdict, RigVerdict::kBad);
 }
 
 TEST(RigCalibration, LightThatDoesNotMoveIsNoCalibration) {
@@ -226,7 +226,7 @@ TEST(RigCalibration, LightThatDoesNotMoveIsNoCalibration) {
     if (pixel.isZero()) pixel = row.pixel;
     row.pixel = pixel;
   }
-  EXPECT_EQ(solve(made.unposed(), made.rows).verdict, Verdict::kBad);
+  EXPECT_EQ(solve(made.unposed(), made.rows).verdict, RigVerdict::kBad);
 }
 
 TEST(RigCalibration, RepeatsBitForBit) {

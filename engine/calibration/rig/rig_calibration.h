@@ -22,8 +22,8 @@ struct RigCalibrationOptions {
   std::optional<KnownDistance> scale;
 };
 
-enum class Verdict { kGood, kUsable, kBad };
-const char* nameOf(Verdict verdict);
+enum class RigVerdict { kGood, kUsable, kBad };
+const char* nameOf(RigVerdict verdict);
 
 struct CalibratedCamera {
   std::string label;
@@ -40,7 +40,7 @@ struct CalibratedCamera {
 };
 
 struct RigCalibration {
-  Verdict verdict = Verdict::kBad;
+  RigVerdict verdict = RigVerdict::kBad;
   std::vector<std::string> reasons;  ///< why the verdict is not better
   bool metric = false;               ///< else the unit of length is arbitrary
   std::string scale_from;

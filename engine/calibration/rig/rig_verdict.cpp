@@ -25,16 +25,16 @@ std::string number(double value, int digits) {
 class Judge {
  public:
   explicit Judge(RigCalibration& calibration) : calibration_(calibration) {
-    calibration.verdict = Verdict::kGood;
+    calibration.verdict = RigVerdict::kGood;
   }
 
   /// The worse of the verdict so far and what `value` deserves by two limits.
   void limit(double value, double good, double usable, const std::string& reason) {
     if (value <= good) return;
-    reasonFor(value <= usable ? Verdict::kUsable : Verdict::kBad, reason);
+    reasonFor(value <= usable ? RigVerdict::kUsable : RigVerdict::kBad, reason);
   }
 
-  void reasonFor(Verdict verdict, const std::string& reason) {
+  void reasonFor(RigVerdict verdict, const std::string& reason) {
     calibration_.verdict = std::max(calibration_.verdict, verdict);
     calibration_.reasons.push_back(reason);
   }
@@ -46,13 +46,13 @@ class Judge {
 void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camera, bool metric) {
   const std::string who = "camera " + c.label;
   if (c.observations == 0 && !c.given)
-    return judge.reasonFor(Verdict::kBad,
+    return judge.reasonFor(RigVerdict::kBad,
                            who +
                                " shares no observation with another camera: record with the target "
                                "where it and another one see it at once");
   if (!c.camera_from_world)
     return judge.reasonFor(
-        Verdict::kBad,
+        RigVerdict::kBad,
         who +
             " cannot be placed: too few of its observations agree with those of placed cameras; "
             "record with the target where it and two others see it at once");
@@ -68,11 +68,11 @@ void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camer
               who + " misses by " + number(c.reprojection_rms_px, 2) +
                   " px rms: see to its intrinsics, its focus, and that clocks and columns are right");
   if (c.image_parts < kGoodParts)
-    judge.reasonFor(Verdict::kUsable, who + " saw the target in " + std::to_string(c.image_parts) +
+    judge.reasonFor(RigVerdict::kUsable, who + " saw the target in " + std::to_string(c.image_parts) +
                                           " of 16 parts of its image only: move it through the whole image");
   if (c.given) return;
   if (!c.covariance)
-    return judge.reasonFor(Verdict::kBad, "the recording leaves the place of " + who +
+    return judge.reasonFor(RigVerdict::kBad, "the recording leaves the place of " + who +
                                               " open: move the target in depth and sideways");
   judge.limit(
       c.position_sigma_m / std::max(1e-9, c.distance_m), kGoodPlace, kUsablePlace,
@@ -94,18 +94,18 @@ void judge(RigCalibration& calibration, std::span<const RigCamera> cameras) {
   if (calibration.given_off_deg > kGoodGivenDeg || calibration.given_off_share > kGoodGivenShare)
     judge.reasonFor(
         calibration.given_off_deg > kUsableGivenDeg || calibration.given_off_share > kUsableGivenShare
-            ? Verdict::kBad
-            : Verdict::kUsable,
+            ? RigVerdict::kBad
+            : RigVerdict::kUsable,
         off + cure);
 }
 
-const char* nameOf(Verdict verdict) {
+const char* nameOf(RigVerdict verdict) {
   switch (verdict) {
-    case Verdict::kGood:
+    case RigVerdict::kGood:
       return "good";
-    case Verdict::kUsable:
+    case RigVerdict::kUsable:
       return "usable";
-    case Verdict::kBad:
+    case RigVerdict::kBad:
       return "bad";
   }
   return "";

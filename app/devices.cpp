@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/usb_transmitters.h"
 #include "engine/base/error.h"
 #include "engine/cameras/aravis/aravis_discovery.h"
 #include "engine/cameras/webcam/webcam_discovery.h"
@@ -52,10 +53,12 @@ void listDevices(bool as_json) {
   if (as_json) {
     json report{{"cameras", json::array()}};
     for (const FoundCamera& camera : cameras) report["cameras"].push_back(toJson(camera));
+    report["transmitters"] = usbTransmittersJson();
     text = report.dump(2) + "\n";
   } else {
     for (const FoundCamera& camera : cameras) text += toText(camera);
     if (cameras.empty()) text = "no camera answers; `helical doctor` looks for what is in its way\n";
+    text += usbTransmittersText();
   }
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw Error(ErrorKind::kSystem, "the list cannot be written to standard output", {}, "check the disk or the pipe");
@@ -65,7 +68,7 @@ void listDevices(bool as_json) {
 
 void addDevicesCommand(CLI::App& app, int& exit_code) {
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("devices", "Cameras that are plugged in, with formats and rates");
+  CLI::App* command = app.add_subcommand("devices", "Cameras and transmitters that are plugged in");
   command->add_flag("--json", *as_json, "Print one JSON object");
   command->callback([as_json, &exit_code] {
     listDevices(*as_json);

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/usb_transmitters.h"
 #include "engine/base/error.h"
 #include "engine/cameras/aravis/gvcp_probe.h"
 #include "engine/cameras/machine_check.h"
@@ -81,8 +83,11 @@ std::string reportOf(const std::vector<Finding>& findings, bool as_json) {
 int examine(const DoctorArguments& arguments) {
   std::vector<Finding> findings = checkMachine("/");
   bool missing = false;
-  if (!arguments.rig.empty())
-    for (Finding& finding : checkCameras(loadRig(arguments.rig), missing)) findings.push_back(std::move(finding));
+  const auto add = [&](std::vector<Finding> more) { findings.insert(findings.end(), more.begin(), more.end()); };
+  std::optional<RigConfig> rig;
+  if (!arguments.rig.empty()) rig = loadRig(arguments.rig);
+  if (rig) add(checkCameras(*rig, missing));
+  add(checkUsbTransmitters("/", rig ? &*rig : nullptr, missing));
   const std::string text = reportOf(findings, arguments.json);
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw Error(ErrorKind::kSystem, "the report cannot be written to standard output", {}, "check the disk or the pipe");
@@ -97,8 +102,8 @@ int examine(const DoctorArguments& arguments) {
 void addDoctorCommand(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<DoctorArguments>();
   CLI::App* command =
-      app.add_subcommand("doctor", "What on this machine would get in the way of cameras, and the cure");
-  command->add_option("--rig", arguments->rig, "Looks for the cameras of this rig, too");
+      app.add_subcommand("doctor", "What on this machine would get in the way of cameras and transmitters, and the cure");
+  command->add_option("--rig", arguments->rig, "Looks for the cameras and the transmitter of this rig, too");
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->callback([arguments, &exit_code] { exit_code = examine(*arguments); });
 }

@@ -15,6 +15,7 @@
 #include "app/recover.h"
 #include "app/replay.h"
 #include "app/serve.h"
+#include "app/transmitter.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #ifdef HELICAL_HAS_WINDOW
@@ -107,6 +108,7 @@ int main(int argc, char** argv) {
   helical::addRecoverCommand(app, exit_code);
   helical::addReplayCommand(app, exit_code);
   helical::addServeCommand(app, exit_code);
+  helical::addTransmitterCommand(app, exit_code);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

@@ -11,6 +11,7 @@
 #include "engine/config/rig_options.h"
 #include "engine/config/text_file.h"
 #include "engine/config/toml_table.h"
+#include "engine/config/transmitter_table.h"
 
 namespace helical {
 namespace {

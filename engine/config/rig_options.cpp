@@ -148,16 +148,6 @@ constexpr OptionField<SupervisorOptions> kSupervisorFields[] = {
     {"disarm_after_cut_s", &SupervisorOptions::disarm_after_cut_s},
 };
 
-constexpr OptionField<TransmitterOptions> kTransmitterFields[] = {
-    {"rate_hz", &TransmitterOptions::rate_hz},
-};
-
-constexpr OptionField<OutputGuardOptions> kGuardFields[] = {
-    {"silent_s", &OutputGuardOptions::silent_s, 1.0, 0.02, 0.14},
-    {"hold_s", &OutputGuardOptions::hold_s, 1.0, 0.01, 10.0},
-    {"ramp_per_s", &OutputGuardOptions::ramp_per_s, 1.0, 0.05, 100.0},
-};
-
 constexpr OptionField<SimulationOptions> kSimulationFields[] = {
     {"gust_factor", &SimulationOptions::gust_factor},
     {"vary", &SimulationOptions::vary},
@@ -280,18 +270,6 @@ void readSimulationOptions(TomlTable& table, SimulationOptions& options) {
   readAndValidate(table, kSimulationFields, options);
   readWholeTable(noise, kNoiseFields, options.noise);
   noise.locate([&] { validate(options); });
-}
-
-void readTransmitterOptions(TomlTable table, TransmitterOptions& options) {
-  options.kind = table.text("kind").value_or(options.kind);
-  const auto kinds = transmitterKinds();
-  if (std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end())
-    table.fail("kind", "the transmitter '" + options.kind + "' is not built yet",
-               "use kind = \"simulated\", \"output-process\", \"loopback\" or \"none\"");
-  options.device = table.text("device").value_or(options.device);
-  options.address = table.text("address").value_or(options.address);
-  readOptions(table, kGuardFields, options.guard);
-  readAndValidate(table, kTransmitterFields, options);
 }
 
 void readCalibration(TomlTable table, RigConfig& rig) {

@@ -13,7 +13,6 @@ void readTrackerOptions(TomlTable table, TrackerOptions& options);
 void readControllerOptions(TomlTable table, ControllerOptions& options);
 void readSupervisorOptions(TomlTable table, SupervisorOptions& options);
 void readSimulationOptions(TomlTable& table, SimulationOptions& options);
-void readTransmitterOptions(TomlTable table, TransmitterOptions& options);
 /// The method and what users set of all methods.
 void readCalibration(TomlTable table, RigConfig& rig);
 

@@ -175,7 +175,7 @@ const char* toString(PreArmCheck check) {
     case PreArmCheck::kTransmitter:
       return "the transmitter is not ready";
     case PreArmCheck::kChannels:
-      return "the channels of the transmitter are not calibrated";
+      return "the channels of the transmitter are not calibrated, or nobody has looked which way they go";
     case PreArmCheck::kPilot:
       return "the pilot's transmitter flies";
     case PreArmCheck::kSticks:

@@ -1,6 +1,8 @@
 #include "engine/flight/supervisor.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/flight/pre_arm.h"
 
@@ -60,6 +62,18 @@ void goThroughTable(const SupervisorOptions& options, const SupervisorConditions
   }
 }
 
+/// No limit is ever exceeded by what is no number: a pose that is none counts as no pose, a doubt as the worst.
+SupervisorConditions believed(const SupervisorConditions& told) {
+  constexpr double kWorst = std::numeric_limits<double>::infinity();
+  SupervisorConditions c = told;
+  const bool sound = c.place.allFinite() && std::isfinite(c.tilt) && std::isfinite(c.speed) && !std::isnan(c.pose_age_s);
+  if (!sound) c.pose_age_s = kWorst;
+  for (double* doubt : {&c.health.residual_ratio, &c.health.position_sigma, &c.health.rotation_sigma, &c.health.overrun_s,
+                        &c.flight_time_s})
+    if (std::isnan(*doubt)) *doubt = kWorst;
+  return c;
+}
+
 bool mayStayArmed(const SupervisorOptions& options, const SupervisorConditions& c, SupervisorMemory& memory) {
   const auto longer = [&c](TimeNs since, double than_s) {
     return since >= 0 && toSeconds(c.now - since) > than_s;
@@ -91,7 +105,8 @@ void armOrDisarm(const SupervisorOptions& options, const SupervisorConditions& c
 }  // namespace
 
 SupervisorMemory supervise(const SupervisorOptions& options, const SupervisorMemory& before,
-                           const SupervisorConditions& c) {
+                           const SupervisorConditions& told) {
+  const SupervisorConditions c = believed(told);
   SupervisorMemory memory = before;
   memory.late_ticks = c.health.overrun_s > options.overrun_s ? before.late_ticks + 1 : 0;
   trackDescent(options, c, memory);

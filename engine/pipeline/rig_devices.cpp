@@ -1,7 +1,6 @@
 #include "engine/pipeline/rig_devices.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "engine/simulator/loopback_link.h"
 #include "engine/simulator/simulated_transmitter.h"
 #include "engine/transmitter/output_process.h"
+#include "engine/transmitter/shared_output.h"
 
 namespace helical {
 namespace {
@@ -27,14 +27,6 @@ class NoTransmitter final : public Transmitter {
     return status;
   }
 };
-
-template <std::size_t N>
-void copyText(const std::string& from, std::array<char, N>& to, const std::string& where) {
-  if (from.size() >= N)
-    throw Error(ErrorKind::kInput, "'" + from + "' is too long for the output process", where,
-                "give a shorter one");
-  std::copy(from.begin(), from.end(), to.begin());
-}
 
 /// The simulated transmitter behind a real output process: what that puts out is what the helicopter gets.
 class ProcessTransmitter final : public Transmitter {
@@ -54,12 +46,7 @@ class ProcessTransmitter final : public Transmitter {
 };
 
 std::unique_ptr<Transmitter> openOutputProcess(const RigConfig& rig, const std::shared_ptr<World>& world) {
-  OutputSettings settings;
-  copyText("loopback", settings.device, rig.path);
-  copyText(rig.transmitter.device, settings.address, rig.path);
-  settings.rate_hz = rig.transmitter.rate_hz;
-  settings.guard = rig.transmitter.guard;
-  return std::make_unique<ProcessTransmitter>(settings,
+  return std::make_unique<ProcessTransmitter>(outputSettings(rig.transmitter),
                                               std::make_unique<SimulatedTransmitter>(rig.simulation, world));
 }
 
@@ -67,6 +54,7 @@ std::unique_ptr<Transmitter> openOutputProcess(const RigConfig& rig, const std::
 
 bool needsRealTime(const RigConfig& rig) {
   return rig.transmitter.kind == "loopback" || rig.transmitter.kind == "output-process" ||
+         isUsb(rig.transmitter) ||
          std::any_of(rig.cameras.begin(), rig.cameras.end(),
                      [](const auto& camera) { return !camera.source.empty() && camera.source != "sim"; });
 }
@@ -87,6 +75,8 @@ std::unique_ptr<Transmitter> openTransmitter(const RigConfig& rig, const std::sh
   if (kind == "loopback") return std::make_unique<LoopbackTransmitter>(rig.transmitter.address);
   if (kind == "simulated" && world) return std::make_unique<SimulatedTransmitter>(rig.simulation, world);
   if (kind == "output-process" && world) return openOutputProcess(rig, world);
+  if (isUsb(rig.transmitter))
+    return std::make_unique<OutputProcess>(outputSettings(rig.transmitter), OutputProcess::findProgram());
   return std::make_unique<NoTransmitter>();
 }
 

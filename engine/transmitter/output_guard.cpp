@@ -14,6 +14,11 @@ bool rotorsRest(const StickDemand& demand) {
   return demand.upper_rotor <= 0.0 && demand.lower_rotor <= 0.0;
 }
 
+bool isFinite(const StickDemand& demand) {
+  return std::isfinite(demand.upper_rotor) && std::isfinite(demand.lower_rotor) && std::isfinite(demand.roll) &&
+         std::isfinite(demand.pitch);
+}
+
 }  // namespace
 
 void validate(const OutputGuardOptions& o) {
@@ -36,8 +41,11 @@ StickDemand OutputGuard::neutralRamp(TimeNs silent_for) const {
 }
 
 StickDemand OutputGuard::step(const StickDemand& newest, TimeNs made, TimeNs now) {
-  const TimeNs silent_for = now - made;
-  const bool fresh = toSeconds(silent_for) <= options_.silent_s;
+  // What is no number is no demand, and the last one that was grows old.
+  const bool sound = isFinite(newest);
+  if (sound) sound_at_ = made;
+  const TimeNs silent_for = now - sound_at_;
+  const bool fresh = sound && toSeconds(silent_for) <= options_.silent_s;
   if (locked_) {
     locked_ = !fresh || !rotorsRest(newest);
     flown_ = {};

@@ -22,9 +22,11 @@ class OutputGuard {
  public:
   explicit OutputGuard(const OutputGuardOptions& options, bool locked = true);
 
-  /// `newest` was made at `made`, on the same clock as `now`.
+  /// `newest` was made at `made`, on the same clock as `now`. One that is no number counts as not made.
   StickDemand step(const StickDemand& newest, TimeNs made, TimeNs now);
   bool locked() const { return locked_; }
+  /// The device was away: what comes back finds the rotors at rest.
+  void lock() { locked_ = true; }
 
  private:
   StickDemand neutralRamp(TimeNs silent_for) const;
@@ -32,6 +34,7 @@ class OutputGuard {
   OutputGuardOptions options_;
   bool locked_;
   StickDemand flown_;  ///< the last fresh one
+  TimeNs sound_at_ = 0;  ///< when the newest demand was made that was one
 };
 
 }  // namespace helical

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <string_view>
 
 #include "engine/transmitter/output_device.h"
 #include "engine/transmitter/output_guard.h"
@@ -49,7 +51,8 @@ class Output {
     const StickDemand output = guard_.step(newest_.demand, newest_.quit ? 0 : newest_.time, now);
     beat_ = !beat_;
     device_->beat(beat_);
-    device_->send(output, now);
+    device_->send(settings_.bench ? StickDemand{} : output, now);
+    watchDevice(now);
     report(output, now);
     if (output != StickDemand{}) rests_since_ = -1;
     if (output == StickDemand{} && rests_since_ < 0) rests_since_ = now;
@@ -60,12 +63,29 @@ class Output {
   TimeNs period() const { return fromSeconds(1.0 / std::clamp(settings_.rate_hz, 10.0, 1000.0)); }
 
  private:
+  /// A device that was away, or that has not taken a demand for as long as an old one may be flown: whatever comes back,
+  /// comes back at rest.
+  void watchDevice(TimeNs now) {
+    const TransmitterStatus status = device_->status();
+    if (!status.fault) well_at_ = now;
+    if (!status.present || toSeconds(now - well_at_) > settings_.guard.silent_s) guard_.lock();
+    if (status.trouble == told_) return;
+    told_ = status.trouble;
+    if (told_ == TransmitterTrouble::kNone)
+      std::fputs("helical-output: the transmitter's device is well\n", stderr);
+    else
+      std::fprintf(stderr, "helical-output: %s; %s\n", toString(told_), cureOf(told_));
+  }
+
   void report(const StickDemand& output, TimeNs now) {
     OutputReport report;
     report.sequence = ++reports_;
     report.time = now;
-    report.output = output;
+    report.output = settings_.bench ? StickDemand{} : output;
     report.status = device_->status();
+    report.status.bench = settings_.bench;
+    const bool usb = std::string_view(settings_.device.data()) != "loopback";
+    report.status.channels_calibrated = !usb || (settings_.channels.count > 0 && settings_.directions_checked);
     report.locked = guard_.locked();
     shared_->report.write(report);
   }
@@ -78,6 +98,8 @@ class Output {
   DemandMessage newest_;
   bool beat_ = false;
   std::uint64_t reports_ = 0;
+  TimeNs well_at_ = 0;
+  TransmitterTrouble told_ = TransmitterTrouble::kNone;
   TimeNs rests_since_ = -1;
 };
 

@@ -5,7 +5,9 @@
 
 #include "engine/base/time.h"
 #include "engine/helicopter/stick_demand.h"
+#include "engine/transmitter/output_channel.h"
 #include "engine/transmitter/output_guard.h"
+#include "engine/transmitter/radio_options.h"
 #include "engine/transmitter/seqlock.h"
 #include "engine/transmitter/transmitter_status.h"
 
@@ -13,8 +15,13 @@ namespace helical {
 
 /// What the output process is to do; written before it starts.
 struct OutputSettings {
-  std::array<char, 32> device{};    ///< "loopback"
-  std::array<char, 512> address{};  ///< of the device; of the loopback the file that it logs to, or nothing
+  std::array<char, 32> device{};    ///< "loopback", "mcc-usb-3100", "crazyradio"
+  std::array<char, 512> address{};  ///< its serial number, or nothing; of the loopback the file that it logs to
+  OutputChannels channels;          ///< of a USB device
+  bool directions_checked = false;  ///< somebody has seen which way each of the channels goes
+  bool bench = false;               ///< nothing but rest goes to the device
+  int trainer_input = -1;           ///< digital input of the trainer switch; negative: none
+  RadioOptions radio;
   double rate_hz = 100.0;
   OutputGuardOptions guard;
 };
@@ -38,7 +45,7 @@ struct OutputReport {
 
 /// The memory that ground station and output process share.
 struct SharedOutput {
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   std::uint32_t version = kVersion;
   OutputSettings settings;

@@ -1812,8 +1812,8 @@ m/s</translation>
         <translation>der Sender ist nicht bereit</translation>
     </message>
     <message>
-        <source>the channels of the transmitter are not calibrated</source>
-        <translation>die Kanäle des Senders sind nicht kalibriert</translation>
+        <source>the channels of the transmitter are not calibrated, or nobody has looked which way they go</source>
+        <translation>die Kanäle des Senders sind nicht kalibriert, oder niemand hat nachgesehen, in welche Richtung sie gehen</translation>
     </message>
     <message>
         <source>the pilot's transmitter flies</source>

@@ -1,5 +1,5 @@
 // A ground station for tests, to be killed and stopped: flies (the same sticks for ever) through the output
-// process. Usage: ground_station OUTPUT_PROGRAM LOG
+// process. Usage: ground_station OUTPUT_PROGRAM LOG, or ground_station OUTPUT_PROGRAM SERIAL DEVICE
 
 #include <chrono>
 #include <cstdio>
@@ -8,11 +8,23 @@
 
 #include "engine/transmitter/output_process.h"
 
+namespace {
+
+constexpr helical::StickAxis kSticks[] = {helical::StickAxis::kUpperRotor, helical::StickAxis::kLowerRotor,
+                                          helical::StickAxis::kRoll, helical::StickAxis::kPitch};
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 3 && argc != 4) return 2;
   helical::OutputSettings settings;
-  std::strncpy(settings.device.data(), "loopback", settings.device.size() - 1);
+  std::strncpy(settings.device.data(), argc == 4 ? argv[3] : "loopback", settings.device.size() - 1);
   std::strncpy(settings.address.data(), argv[2], settings.address.size() - 1);
+  if (argc == 4) {
+    settings.channels.count = 4;
+    for (int i = 0; i < 4; ++i) settings.channels.all[static_cast<std::size_t>(i)] = {kSticks[i], i, 0.5, 2.5, 4.5, 0.0, false, 0.0};
+    settings.directions_checked = true;
+  }
   settings.guard.hold_s = 0.1;
   settings.guard.ramp_per_s = 4.0;
   helical::OutputProcess output(settings, argv[1]);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 
@@ -75,6 +77,23 @@ TEST(OutputGuard, PropertiesUnderRandomDemands) {
       if (guard.locked()) rested = false;
     }
   }
+}
+
+TEST(OutputGuard, WhatIsNoNumberIsNotFlown) {
+  OutputGuard guard({}, false);
+  guard.step(kFlying, 0, 1 * kMs);
+  StickDemand wrong = kFlying;
+  wrong.pitch = std::numeric_limits<double>::quiet_NaN();
+  for (int ms = 10; ms < 5000; ms += 10) {
+    const StickDemand output = guard.step(wrong, ms * kMs, ms * kMs);
+    ASSERT_EQ(output.pitch, 0.0);
+    ASSERT_EQ(output.roll, 0.0);
+    ASSERT_LE(output.upper_rotor, kFlying.upper_rotor);
+  }
+  EXPECT_TRUE(guard.locked()) << "ramped down as if nothing had come";
+  wrong = {0.0, std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  EXPECT_EQ(guard.step(wrong, 5000 * kMs, 5000 * kMs), StickDemand{});
+  EXPECT_TRUE(guard.locked());
 }
 
 TEST(OutputGuard, ValidatesItsOptions) {

@@ -6,11 +6,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/calibrate.h"
-#include "app/media_reader.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/calibration/intrinsics/intrinsics_calibration.h"
+#include "engine/cameras/file/media_reader.h"
 #include "engine/config/rig_writer.h"
 
 namespace helical {
@@ -67,16 +67,18 @@ struct Found {
   int width = 0, height = 0;
 };
 
-void look(const cv::Mat& bgr, const std::string& name, const Board& board, Found& found) {
-  if (found.width == 0) found.width = bgr.cols, found.height = bgr.rows;
-  if (bgr.cols != found.width || bgr.rows != found.height)
+void look(const ImageView& bgr, const std::string& name, const Board& board, Found& found) {
+  if (found.width == 0) found.width = bgr.width, found.height = bgr.height;
+  if (bgr.width != found.width || bgr.height != found.height)
     throw Error(ErrorKind::kInput,
-                "the image has " + std::to_string(bgr.cols) + "x" + std::to_string(bgr.rows) +
+                "the image has " + std::to_string(bgr.width) + "x" + std::to_string(bgr.height) +
                     " pixels, the first one " + std::to_string(found.width) + "x" +
                     std::to_string(found.height),
                 name, "give images of one camera in one resolution");
   cv::Mat gray;
-  cv::cvtColor(bgr, gray, cv::COLOR_BGR2GRAY);
+  const cv::Mat colour(bgr.height, bgr.width, CV_8UC3, const_cast<std::uint8_t*>(bgr.data),
+                       static_cast<std::size_t>(bgr.stride));
+  cv::cvtColor(colour, gray, cv::COLOR_BGR2GRAY);
   BoardView view = findBoard({gray.data, gray.cols, gray.rows, gray.step}, board, name);
   if (view.pixels.empty())
     found.without.push_back(name);

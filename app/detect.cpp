@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "app/centroid_csv.h"
-#include "app/media_reader.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
+#include "engine/cameras/file/media_reader.h"
 #include "engine/config/rig_file.h"
 #include "engine/markers/extractor.h"
 
@@ -26,10 +26,6 @@ struct DetectArguments {
   std::string hsv;
   std::string csv;
 };
-
-ImageView viewOf(const cv::Mat& bgr) {
-  return {bgr.data, bgr.cols, bgr.rows, static_cast<int>(bgr.step), PixelFormat::kBgr8};
-}
 
 std::string sizeName(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -79,11 +75,11 @@ Configured configure(const DetectArguments& arguments) {
   return configured;
 }
 
-void checkSize(const cv::Mat& image, int width, int height, const std::string& file,
+void checkSize(const ImageView& image, int width, int height, const std::string& file,
                const std::string& other) {
-  if (image.cols == width && image.rows == height) return;
+  if (image.width == width && image.height == height) return;
   throw Error(ErrorKind::kInput,
-              "the image has " + sizeName(image.cols, image.rows) + " pixels, " + other + " " +
+              "the image has " + sizeName(image.width, image.height) + " pixels, " + other + " " +
                   sizeName(width, height),
               file, "give files of one camera");
 }
@@ -93,10 +89,10 @@ int detect(const DetectArguments& arguments) {
   const auto reader = MediaReader::open(arguments.media);
   Extractor extractor(configured.options);
   extractor.disableBackground();
-  cv::Mat background;
+  MediaFrame background;
   if (!arguments.background.empty()) {
     background = readImage(arguments.background);
-    extractor.setBackground(viewOf(background));
+    extractor.setBackground(background.bgr);
   }
 
   CentroidCsv csv(arguments.csv);
@@ -110,10 +106,10 @@ int detect(const DetectArguments& arguments) {
         if (configured.camera)
           checkSize(frame.bgr, configured.camera->width(), configured.camera->height(), arguments.media,
                     "camera " + arguments.camera);
-        if (!background.empty())
-          checkSize(background, frame.bgr.cols, frame.bgr.rows, arguments.background, arguments.media);
+        if (background.bgr.data != nullptr)
+          checkSize(background.bgr, frame.bgr.width, frame.bgr.height, arguments.background, arguments.media);
       }
-      extractor.extract(viewOf(frame.bgr), found);
+      extractor.extract(frame.bgr, found);
       csv.add(frame.index, frame.time_s, found);
       frames_with_markers += found.count > 0 ? 1 : 0;
       if (reader->frameCount() > 0)

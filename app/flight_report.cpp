@@ -70,6 +70,7 @@ json cameraJson(const FlightRun& run, const CameraConfig& config, std::size_t in
           {"dropped", camera.dropped},
           {"returns", camera.returns},
           {"resent_packets", camera.resent_packets},
+          {"longest_gap_s", run.links.longestGap(cameraId(static_cast<int>(index)))},
           {"extraction_us", microseconds(camera.extraction_p50, camera.extraction_p99)},
           {"calibration", calibrationJson(run, index)}};
 }
@@ -115,6 +116,7 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
   report["selected_features"] = selected;
   report["server_us"] = microseconds(run.last.server_p50, run.last.server_p99);
   report["frame_to_command_us"] = microseconds(run.last.frame_to_command_p50, run.last.frame_to_command_p99);
+  report["transfer_us"] = microseconds(run.links.transfer().percentile(0.50), run.links.transfer().percentile(0.99));
   report["not_armed"] = checkReasons(score.unarmedBecause());
   report["failsafes"] = failsafeNames(score.failsafes());
   report["cameras_disagree"] = run.last.cameras_disagree;

@@ -29,6 +29,7 @@ namespace helical {
 namespace {
 
 constexpr int kProgressTicks = 60;
+constexpr double kLongestRecordingS = 24.0 * 3600.0;
 
 struct FlyArguments {
   std::string rig;
@@ -147,10 +148,16 @@ void finishRecord(Recorder& recorder) {
         "the disk was too slow: the record lacks " + std::to_string(recorder.lostImages()) + " images");
 }
 
+bool recordingsFailed(const EngineSnapshot& last) {
+  return std::any_of(last.cameras.begin(), last.cameras.end(),
+                     [](const CameraSnapshot& camera) { return camera.link == LinkState::kStalled; });
+}
+
 int fly(const FlyArguments& arguments) {
   const RigConfig rig = configuredRig(arguments);
   const FlightPlan plan = configuredPlan(arguments);
-  const double planned_s = plannedSeconds(plan);
+  const bool looks_on = isOfRecordings(rig);
+  const double planned_s = looks_on && arguments.duration_s <= 0.0 ? kLongestRecordingS : plannedSeconds(plan);
   const std::unique_ptr<Recorder> recorder = startRecorder(arguments, rig, plan);
   FlightRun run;
   {
@@ -169,6 +176,7 @@ int fly(const FlyArguments& arguments) {
   if (std::fputs(report.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw Error(ErrorKind::kSystem, "the report cannot be written to standard output", {},
                 "check the disk or the pipe");
+  if (looks_on) return recordingsFailed(run.last) ? 2 : 0;
   return outcomeOf(run.last, run.score) == "landed" ? 0 : 1;
 }
 

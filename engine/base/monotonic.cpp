@@ -5,10 +5,22 @@
 
 namespace helical {
 
-TimeNs monotonicNow() {
+namespace {
+
+TimeNs timeOf(clockid_t clock) {
   timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
+  clock_gettime(clock, &time);
   return static_cast<TimeNs>(time.tv_sec) * kNanosecondsPerSecond + time.tv_nsec;
+}
+
+}  // namespace
+
+TimeNs monotonicNow() {
+  return timeOf(CLOCK_MONOTONIC);
+}
+
+TimeNs worldNow() {
+  return timeOf(CLOCK_REALTIME);
 }
 
 void sleepUntilMonotonic(TimeNs time) {

@@ -32,12 +32,10 @@ std::string readLabel(TomlTable& table) {
 std::string readSource(TomlTable& table) {
   const std::string source = table.text("source").value_or("");
   if (source.empty() || source == "sim") return source;
-  if (source.starts_with("aravis:") && source.size() > std::string("aravis:").size()) return source;
-  for (const char* kind : {"webcam:", "file:"})
-    if (source.starts_with(kind))
-      table.fail("source", "cameras from '" + std::string(kind) + "' are not built yet",
-                 "use source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
-  table.fail("source", "unknown source '" + source + "'", "use source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
+  for (const char* kind : {"aravis:", "webcam:", "file:"})
+    if (source.starts_with(kind) && source != kind) return source;
+  table.fail("source", "unknown source '" + source + "'",
+             "use source = \"sim\", \"aravis:ADDRESS-OR-SERIAL\", \"webcam:/dev/video0\" or \"file:PATH\"");
 }
 
 CameraModel readModel(const TomlTable& camera, const Eigen::Vector2d& size, TomlTable table) {

@@ -1,5 +1,6 @@
 #include "engine/experiments/flight_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -8,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/lock_step.h"
+#include "engine/pipeline/rig_devices.h"
 #include "engine/pipeline/rig_hardware.h"
 
 namespace helical {
@@ -25,8 +27,9 @@ constexpr double kPatienceS = 20.0;  // for the pre-arm checks, after which the 
 /// The operator of a headless flight: arms and takes off once every check passes, and knows when it is over.
 class Operator {
  public:
-  /// `carried_s`: for so long it is carried about first.
-  Operator(double limit_s, double carried_s) : end_(limit_s), carried_s_(carried_s) {}
+  /// `carried_s`: for so long it is carried about first. `looks_on`: the rig's cameras are recordings.
+  Operator(double limit_s, double carried_s, bool looks_on)
+      : end_(limit_s), carried_s_(carried_s), looks_on_(looks_on) {}
 
   bool wantsTakeOff(const EngineSnapshot& now) {
     if (ordered_ || !now.pose_known || now.failing_checks != 0) return false;
@@ -36,13 +39,20 @@ class Operator {
   }
 
   bool isOver(const EngineSnapshot& now) {
+    if (looks_on_) return end_.isOver(now) || haveEnded(now);
     const bool never_armed = !ordered_ && toSeconds(now.time) > carried_s_ + kPatienceS;
     return end_.isOver(now) || never_armed;
   }
 
  private:
+  static bool haveEnded(const EngineSnapshot& now) {
+    return std::none_of(now.cameras.begin(), now.cameras.begin() + now.camera_count,
+                        [](const CameraSnapshot& camera) { return camera.link == LinkState::kStreaming; });
+  }
+
   FlightEnd end_;
   double carried_s_;
+  bool looks_on_;
   bool ordered_ = false;
 };
 
@@ -51,6 +61,7 @@ void fly(LockStep& flight, Operator& pilot, FlightRun& run, const TickListener& 
   do {
     run.last = flight.tick(commands);
     run.score.add(run.last);
+    run.links.add(run.last);
     commands.arm = commands.take_off = pilot.wantsTakeOff(run.last);
     listener(run.last);
   } while (!pilot.isOver(run.last));
@@ -62,6 +73,7 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const TickListener& li
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     while (!over && engine.nextTick(run.last)) {
       run.score.add(run.last);
+      run.links.add(run.last);
       if (pilot.wantsTakeOff(run.last)) {
         engine.arm();
         engine.takeOff();
@@ -110,7 +122,7 @@ bool FlightEnd::isOver(const EngineSnapshot& now) {
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
                     const TickListener& listener, FlightTap* tap) {
   FlightRun run;
-  Operator pilot(limit_s, plan.carried_s);
+  Operator pilot(limit_s, plan.carried_s, isOfRecordings(rig));
   if (realtime) {
     Engine engine(rig, plan, tap);
     const MonotonicClock stopwatch;

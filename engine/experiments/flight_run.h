@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/config/rig_config.h"
+#include "engine/experiments/link_score.h"
 #include "engine/flight/flight_plan.h"
 #include "engine/pipeline/flight_score.h"
 #include "engine/pipeline/flight_tap.h"
@@ -15,6 +16,7 @@ namespace helical {
 /// How one simulated flight went.
 struct FlightRun {
   FlightScore score;
+  LinkScore links;
   EngineSnapshot last;  ///< state at the end
   double wall_s = 0.0;
   std::string session;  ///< the file that it was recorded to; empty: none
@@ -49,7 +51,7 @@ class FlightEnd {
   TimeNs ended_ = -1;
 };
 
-/// Flies the plan from take-off to rest (or crash, or `limit_s`), headless: in lock step, or with `realtime`
+/// Flies the plan from take-off to rest (or crash, or `limit_s`; or to the ends of a rig's recordings), headless: in lock step, or with `realtime`
 /// in the engine's own threads at the pace of the wall clock. `tap` sees the flight on its thread.
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
                     const TickListener& listener, FlightTap* tap = nullptr);

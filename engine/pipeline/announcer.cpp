@@ -51,7 +51,10 @@ Severity severityOf(SafetyState demand) {
 
 Announcer::Announcer(const RigConfig& rig) {
   warned_at_.fill(kNever);
-  for (const auto& camera : rig.cameras) names_.push_back(camera.name);
+  for (const auto& camera : rig.cameras) {
+    names_.push_back(camera.name);
+    recordings_.push_back(camera.source.starts_with("file:"));
+  }
 }
 
 EngineEvent Announcer::event(TimeNs time, Severity severity, const char* text) {
@@ -143,6 +146,12 @@ void Announcer::announceRecord(const EngineSnapshot& now, const Sink& raise) {
 
 void Announcer::announceLink(const EngineSnapshot& now, std::size_t camera, const Sink& raise) const {
   const CameraSnapshot& state = now.cameras[camera];
+  if (recordings_[camera]) {
+    if (state.link == LinkState::kLost) raise(event(now.time, Severity::kInfo, camera, "its recording has ended"));
+    if (state.link == LinkState::kStalled)
+      raise(event(now.time, Severity::kDanger, camera, "its recording is damaged: see the log"));
+    return;
+  }
   switch (state.link) {
     case LinkState::kStalled:
       return raise(event(now.time, Severity::kCaution, camera, "sends no frame any more, looked for again"));

@@ -51,6 +51,7 @@ class Announcer {
   void announceCamera(const EngineSnapshot& now, std::size_t camera, const Sink& raise);
 
   std::vector<std::string> names_;
+  std::vector<bool> recordings_;  ///< cameras that are files
   FlightPhase phase_ = FlightPhase::kIdle;
   SafetyState safety_ = SafetyState::kNormal;
   std::uint32_t alarms_ = 0;

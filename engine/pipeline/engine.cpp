@@ -11,6 +11,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/base/spsc_queue.h"
+#include "engine/base/thread_priority.h"
 #include "engine/cameras/demosaic.h"
 #include "engine/config/calibration_file.h"
 #include "engine/markers/marker_colours.h"
@@ -31,6 +32,15 @@ constexpr TimeNs kPicturePeriod = 33 * kNanosecondsPerMillisecond;
 constexpr TimeNs kLongestWait = 20 * kNanosecondsPerMillisecond;
 constexpr int kBackgroundPictures = 30;
 constexpr double kFieldClear = 1.0;  // s, for a background of simulated cameras
+
+constexpr double kUrgentFrames = 400.0;
+
+double framesPerSecond(const RigConfig& rig) {
+  double total = 0.0;
+  for (const CameraConfig& camera : rig.cameras)
+    total += camera.source == "sim" ? rig.simulation.camera_rate_hz : camera.device.rate_hz;
+  return total;
+}
 
 using ObservationQueue = SpscQueue<Observation, 16>;
 
@@ -191,6 +201,8 @@ struct Engine::Implementation {
 };
 
 void Engine::Implementation::capture(std::size_t index, const std::stop_token& stop) {
+  // Many simulated cameras are more work than there is time: in real time they would lock out the window.
+  if (framesPerSecond(rig) <= kUrgentFrames) raisePriority(Urgency::kCapture);
   ObservationSource& source = *hardware.sources[index];
   Observation observation;
   while (!stop.stop_requested()) {
@@ -351,6 +363,7 @@ void Engine::Implementation::replaceCalibration(std::size_t index, const std::st
 }
 
 void Engine::Implementation::fly(const std::stop_token& stop) {
+  raisePriority(Urgency::kControl);
   const TimeNs period = fromSeconds(1.0 / rig.control.rate_hz);
   TimeNs next = clock->now() + period;
   while (!stop.stop_requested()) {
@@ -367,6 +380,7 @@ void Engine::Implementation::fly(const std::stop_token& stop) {
 }
 
 void Engine::Implementation::send(const std::stop_token& stop) {
+  raisePriority(Urgency::kControl);
   while (!stop.stop_requested()) {
     output.step(clock->now());
     clock->sleepUntil(clock->now() + kOutputPeriod);

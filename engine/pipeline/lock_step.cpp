@@ -53,6 +53,7 @@ const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
   output_.step(now);
   snapshot_ = loop_.snapshot();
   hardware_.addTruth(snapshot_, now);
+  hardware_.addLinks(snapshot_);
   if (tap_ != nullptr) show(gated, now);
   return snapshot_;
 }

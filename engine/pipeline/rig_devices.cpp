@@ -1,12 +1,15 @@
 #include "engine/pipeline/rig_devices.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/cameras/aravis/aravis_camera.h"
+#include "engine/cameras/file/file_camera.h"
+#include "engine/cameras/webcam/webcam_camera.h"
 #include "engine/simulator/loopback_link.h"
 #include "engine/simulator/simulated_transmitter.h"
 #include "engine/transmitter/output_process.h"
@@ -15,7 +18,11 @@
 namespace helical {
 namespace {
 
-constexpr std::string_view kAravis = "aravis:";
+constexpr std::string_view kAravis = "aravis:", kFile = "file:", kWebcam = "webcam:";
+
+bool livesInRealTime(const CameraConfig& camera) {
+  return !camera.source.empty() && camera.source != "sim" && !camera.source.starts_with(kFile);
+}
 
 /// For rigs that only look on.
 class NoTransmitter final : public Transmitter {
@@ -54,9 +61,12 @@ std::unique_ptr<Transmitter> openOutputProcess(const RigConfig& rig, const std::
 
 bool needsRealTime(const RigConfig& rig) {
   return rig.transmitter.kind == "loopback" || rig.transmitter.kind == "output-process" ||
-         isUsb(rig.transmitter) ||
-         std::any_of(rig.cameras.begin(), rig.cameras.end(),
-                     [](const auto& camera) { return !camera.source.empty() && camera.source != "sim"; });
+         isUsb(rig.transmitter) || std::any_of(rig.cameras.begin(), rig.cameras.end(), livesInRealTime);
+}
+
+bool isOfRecordings(const RigConfig& rig) {
+  return std::all_of(rig.cameras.begin(), rig.cameras.end(),
+                     [](const CameraConfig& camera) { return camera.source.starts_with(kFile); });
 }
 
 std::unique_ptr<CameraSource> openDevice(const RigConfig& rig, CameraId id, std::shared_ptr<Clock> clock,
@@ -66,8 +76,18 @@ std::unique_ptr<CameraSource> openDevice(const RigConfig& rig, CameraId id, std:
     return std::make_unique<AravisCamera>(id, camera.source.substr(kAravis.size()), camera.device,
                                           camera.model.width(), camera.model.height(), std::move(clock),
                                           std::move(link));
+  if (camera.source.starts_with(kWebcam))
+    return std::make_unique<WebcamCamera>(id, camera.source.substr(kWebcam.size()), camera.device,
+                                          camera.model.width(), camera.model.height(), std::move(clock),
+                                          std::move(link));
+  if (camera.source.starts_with(kFile)) {
+    // A path beside the rig file, so that both can be moved together.
+    const auto file = std::filesystem::path(rig.path).parent_path() / camera.source.substr(kFile.size());
+    return std::make_unique<FileCamera>(id, file, camera.device, camera.model.width(), camera.model.height(),
+                                        std::move(clock), std::move(link));
+  }
   throw Error(ErrorKind::kInput, "camera " + camera.label + " has no source to fly with", rig.path,
-              "give it source = \"sim\" or \"aravis:ADDRESS-OR-SERIAL\"");
+              "give it source = \"sim\", \"aravis:ADDRESS-OR-SERIAL\", \"webcam:/dev/video0\" or \"file:PATH\"");
 }
 
 std::unique_ptr<Transmitter> openTransmitter(const RigConfig& rig, const std::shared_ptr<World>& world) {

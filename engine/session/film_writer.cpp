@@ -1,53 +1,49 @@
 #include "engine/session/film_writer.h"
 
-#include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
 #include <system_error>
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/cameras/video/video_film.h"
 
 namespace helical {
 
-struct FilmWriter::Encoder {
-  cv::VideoWriter writer;
-  cv::Size size;
-};
-
-FilmWriter::FilmWriter(std::filesystem::path file)
-    : file_(std::move(file)), encoder_(std::make_unique<Encoder>()) {}
+FilmWriter::FilmWriter(std::filesystem::path file) : file_(std::move(file)) {}
 
 FilmWriter::~FilmWriter() {
   if (finished_ || !begun()) return;
-  encoder_->writer.release();
+  film_.reset();
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
 }
 
 bool FilmWriter::begun() const {
-  return encoder_->writer.isOpened();
+  return film_ != nullptr;
 }
 
 void FilmWriter::add(const std::uint8_t* bgr, int width, int height, std::size_t stride) {
   // Codings halve the colours' resolution: what is odd loses its last row or column.
-  const cv::Size size(width / 2 * 2, height / 2 * 2);
+  width = width / 2 * 2;
+  height = height / 2 * 2;
   if (!begun()) {
-    encoder_->size = size;
     for (const char* coding : {"avc1", "mp4v"}) {
-      const int code = cv::VideoWriter::fourcc(coding[0], coding[1], coding[2], coding[3]);
-      if (encoder_->writer.open(file_.string(), cv::CAP_FFMPEG, code, kPicturesPerSecond, size)) break;
+      auto film = makeVideoFilm();
+      if (!film->open(file_.string(), coding, kPicturesPerSecond, width, height)) continue;
+      film_ = std::move(film);
+      break;
     }
+    width_ = width;
+    height_ = height;
     if (!begun())
       throw Error(ErrorKind::kSystem, "the film cannot be written", file_.string(),
                   "choose a folder that can be written to; OpenCV needs FFmpeg (libopencv-videoio)");
   }
-  if (size != encoder_->size) return;
-  // OpenCV has no matrix of constant pixels; nobody writes to this one.
-  encoder_->writer.write(cv::Mat(size, CV_8UC3, const_cast<std::uint8_t*>(bgr), stride));
+  if (width != width_ || height != height_) return;
+  film_->write({bgr, width, height, static_cast<int>(stride), PixelFormat::kBgr8});
 }
 
 void FilmWriter::finish() {
-  encoder_->writer.release();
+  film_.reset();
   finished_ = true;
 }
 

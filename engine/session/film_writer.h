@@ -6,6 +6,8 @@
 
 namespace helical {
 
+class VideoFilm;
+
 /// Writes one MP4 film, 30 pictures a second, in the best coding that this machine has. Begins with the first
 /// picture, whose size all have. A film that is not finished is gone with this. One thread; throws
 /// Error(kSystem) where it cannot be written.
@@ -25,9 +27,10 @@ class FilmWriter {
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  struct Encoder;
   std::filesystem::path file_;
-  std::unique_ptr<Encoder> encoder_;
+  std::unique_ptr<VideoFilm> film_;  ///< begun
+  int width_ = 0;
+  int height_ = 0;
   bool finished_ = false;
 };
 

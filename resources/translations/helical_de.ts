@@ -1936,6 +1936,14 @@ m/s</translation>
         <translation>sendet kein Bild mehr, wird wieder gesucht</translation>
     </message>
     <message>
+        <source>its recording has ended</source>
+        <translation>die Aufnahme ist zu Ende</translation>
+    </message>
+    <message>
+        <source>its recording is damaged: see the log</source>
+        <translation>die Aufnahme ist beschädigt: siehe Protokoll</translation>
+    </message>
+    <message>
         <source>controlled by another host</source>
         <translation>von einem anderen Rechner gesteuert</translation>
     </message>

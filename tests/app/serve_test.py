@@ -16,7 +16,7 @@ class OtherClients(unittest.TestCase):
         with VirtualRig(1) as rig:
             address = rig.addresses[0]
             features = client("arv-tool-0.8", "-a", address, "features")
-            for name in ("ExposureTime", "BalanceRatio", "TriggerMode", "PtpEnable", "GevSCPSPacketSize"):
+            for name in ("ExposureTime", "BalanceRatio", "TriggerMode", "PtpEnable", "ChunkEnable", "GevSCPSPacketSize"):
                 self.assertIn(name, features.stdout)
             set_ = client("arv-tool-0.8", "-a", address, "control", "PixelFormat=BayerRG8", "ExposureTime=1500",
                           "Width=320", "OffsetX=64", "PixelFormat", "ExposureTime", "Width", "PayloadSize")
@@ -28,7 +28,7 @@ class OtherClients(unittest.TestCase):
     def test_arv_camera_test_streams(self):
         with VirtualRig(2) as rig:
             streamed = client("arv-camera-test-0.8", "-n", rig.addresses[1], "-f", "30", "--duration", "3",
-                              "--no-packet-socket")
+                              "-w", "320", "-h", "240", "-i", "8000", "--no-packet-socket")  # fits its small buffer
             self.assertEqual(streamed.returncode, 0, streamed.stderr)
             self.assertRegex(streamed.stdout, r"n_completed_buffers\s*=\s*[1-9]\d", streamed.stdout)
         self.assertGreater(rig.report["cameras"][1]["frames"], 10)

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/base/monotonic.h"
+#include "engine/base/thread_priority.h"
 #include "engine/cameras/aravis/gvcp_probe.h"
 
 namespace helical {
@@ -22,6 +24,7 @@ constexpr int kQuickSamples = 8;
 constexpr TimeNs kQuickSamplePeriod = 100 * kMs, kSamplePeriod = 1000 * kMs;
 constexpr auto kKeepPeriod = std::chrono::milliseconds(50);
 constexpr double kSilentFrames = 5.0;
+constexpr TimeNs kAhead = 5 * kMs;  // an action with a time is told so long before
 
 }  // namespace
 
@@ -42,6 +45,11 @@ AravisCamera::AravisCamera(CameraId camera, const std::string& device, const Dev
 
 AravisCamera::~AravisCamera() {
   supervisor_ = {};
+  const std::uint64_t incomplete = link_->incomplete, overrun = link_->overrun, resent = link_->resent;
+  if (incomplete + overrun + resent > 0)
+    log(LogLevel::kInfo, "aravis:" + device_ + ": " + std::to_string(resent) + " packets came when asked for again, " +
+                             std::to_string(incomplete) + " frames stayed incomplete, " + std::to_string(overrun) +
+                             " were not fetched in time");
   if (current_) current_->halt(!current_->controlLost());
   giveBack();
   for (ReceivedFrame left; frames_.pop(left);) left.session->giveBack(left.buffer);
@@ -89,6 +97,7 @@ void AravisCamera::nap(const std::stop_token& stop, TimeNs length) {
 }
 
 void AravisCamera::supervise(const std::stop_token& stop) {
+  raisePriority(Urgency::kCapture);
   while (!stop.stop_requested()) {
     if (current_)
       watch(stop);
@@ -98,15 +107,29 @@ void AravisCamera::supervise(const std::stop_token& stop) {
 }
 
 void AravisCamera::watch(const std::stop_token& stop) {
-  const bool free_running = options_.trigger == TriggerMode::kFree;
+  const bool regular = options_.trigger != TriggerMode::kLine;  // who knows when that comes
   const TimeNs silence = std::max(fromSeconds(1e-3 * options_.silence_ms), fromSeconds(kSilentFrames / options_.rate_hz));
   if (current_->controlLost()) return drop(LinkState::kLost);
   const TimeNs quiet = monotonicNow() - current_->lastFrame();
-  if (free_running && quiet > silence) return drop(LinkState::kStalled);
-  if (trigger_ordered_.exchange(false)) current_->trigger();
+  if (regular && quiet > silence) return drop(LinkState::kStalled);
+  orderExposure();
   link_->incomplete.store(current_->incompleteFrames(), std::memory_order_relaxed);
   link_->resent.store(current_->resentPackets(), std::memory_order_relaxed);
-  nap(stop, kWatchPeriod);
+  const bool orders = next_order_ > 0;
+  nap(stop, orders ? std::clamp<TimeNs>(next_order_ - monotonicNow(), 0, kWatchPeriod) : kWatchPeriod);
+}
+
+/// At multiples of the period, so that all cameras of a rig expose together.
+void AravisCamera::orderExposure() {
+  if (options_.trigger != TriggerMode::kSoftware && options_.trigger != TriggerMode::kAction) return;
+  const TimeNs period = fromSeconds(1.0 / options_.rate_hz), now = monotonicNow();
+  if (next_order_ < now - period) next_order_ = (now / period + 1) * period;
+  if (now < next_order_) return;
+  if (options_.trigger == TriggerMode::kSoftware)
+    current_->trigger();
+  else
+    current_->act(options_.ptp ? std::optional(worldNow() + next_order_ - now + kAhead) : std::nullopt);
+  next_order_ += period;
 }
 
 void AravisCamera::drop(LinkState why) {

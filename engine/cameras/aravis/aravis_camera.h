@@ -19,9 +19,10 @@
 namespace helical {
 
 /// A GigE Vision or USB3 Vision camera, by Aravis. Frames are views into the stream's buffers, stamped with the
-/// mid-exposure on our clock. A camera that falls silent, is unplugged, restarts or is taken by another host is looked
-/// for by a thread of its own until it is back, and then gets all its settings again; what happens stands in the link.
-/// One thread polls and waits.
+/// mid-exposure on our clock. Cameras that wait for triggers by software or action get them here, all of a rig at the same
+/// instants of this machine's clock, `rate_hz` times a second. A camera that falls silent, is unplugged, restarts or is
+/// taken by another host is looked for by a thread of its own until it is back, and then gets all its settings again; what
+/// happens stands in the link. One thread polls and waits.
 class AravisCamera final : public CameraSource {
  public:
   /// `device`: address or serial number. Opens the camera; throws Error(kDevice) when it is not there, Error(kInput)
@@ -34,9 +35,6 @@ class AravisCamera final : public CameraSource {
   bool poll(Frame& frame) override;
   void wait(TimeNs deadline) override;
 
-  /// Exposes now, if it waits for that. Any thread.
-  void trigger() { trigger_ordered_ = true; }
-
  private:
   struct NumberedSample {
     std::uint32_t session = 0;
@@ -45,6 +43,7 @@ class AravisCamera final : public CameraSource {
   // Supervising thread.
   void supervise(const std::stop_token& stop);
   void watch(const std::stop_token& stop);
+  void orderExposure();
   void drop(LinkState why);
   bool lookAgain(const std::stop_token& stop);
   std::unique_ptr<AravisSession> open();
@@ -70,7 +69,6 @@ class AravisCamera final : public CameraSource {
   SpscQueue<ReceivedFrame, 8> frames_;
   SpscQueue<NumberedSample, 16> samples_;
   std::counting_semaphore<> arrived_{0};
-  std::atomic<bool> trigger_ordered_{false};
   std::atomic<double> exposure_us_{0.0};
 
   ReceivedFrame held_;  ///< polling thread, as the next six
@@ -81,8 +79,9 @@ class AravisCamera final : public CameraSource {
   bool seen_ = false;
   NumberedSample early_;  ///< of a session whose frames have not come yet
 
-  std::uint32_t sessions_ = 0;  ///< supervising thread, as the next
+  std::uint32_t sessions_ = 0;  ///< supervising thread, as the next two
   TimeNs backoff_ = 0;
+  TimeNs next_order_ = 0;  ///< of an exposure, on CLOCK_MONOTONIC
 
   std::uint32_t sampled_session_ = 0;  ///< keeping thread, as the next two
   TimeNs next_sample_ = 0;

@@ -5,14 +5,15 @@
 #include <sys/socket.h>
 
 #include <cstdio>
-#include <ctime>
 #include <mutex>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/monotonic.h"
+#include "engine/base/thread_priority.h"
 #include "engine/cameras/aravis/aravis_error.h"
 #include "engine/cameras/aravis/aravis_settings.h"
+#include "engine/cameras/aravis/gvcp_action.h"
 #include "engine/cameras/aravis/gvcp_probe.h"
 
 namespace helical {
@@ -20,7 +21,6 @@ namespace {
 
 constexpr int kBuffers = 16;
 constexpr int kReceiveBuffer = 8 << 20;
-constexpr int kStreamNiceness = -10;
 constexpr std::uint64_t kTimestampControl = 0x0944, kTimestampHigh = 0x0948, kTimestampLow = 0x094c;
 constexpr std::uint32_t kLatch = 2;
 
@@ -28,12 +28,6 @@ constexpr std::uint32_t kLatch = 2;
 std::mutex& openingMutex() {
   static std::mutex mutex;
   return mutex;
-}
-
-TimeNs worldNow() {
-  timespec time{};
-  clock_gettime(CLOCK_REALTIME, &time);
-  return static_cast<TimeNs>(time.tv_sec) * kNanosecondsPerSecond + time.tv_nsec;
 }
 
 ArvDevice* openDevice(const std::string& device, AravisError& error) {
@@ -66,6 +60,7 @@ void AravisSession::close() {
     g_signal_handler_disconnect(arv_camera_get_device(camera_), control_lost_handler_);
   control_lost_handler_ = 0;
   g_clear_object(&stream_);
+  g_clear_object(&chunks_);
   g_clear_object(&camera_);
 }
 
@@ -93,7 +88,13 @@ void AravisSession::open(const std::string& device, const DeviceOptions& options
   if (arv_camera_is_gv_device(camera_) != 0) {
     tick_frequency_ = arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(opened), nullptr);
     if (tick_frequency_ > 0 && !sampleClock(first_sample_)) tick_frequency_ = 0;
+    GSocketAddress* const address = arv_gv_device_get_device_address(ARV_GV_DEVICE(opened));
+    char* const ip = g_inet_address_to_string(g_inet_socket_address_get_address(G_INET_SOCKET_ADDRESS(address)));
+    ip_ = ip;
+    g_free(ip);
   }
+  if (arv_device_is_feature_available(opened, "ChunkTimestamp", nullptr) != 0)
+    chunks_ = arv_camera_create_chunk_parser(camera_);
   const char* const model = arv_camera_get_model_name(camera_, nullptr);
   const char* const serial = arv_camera_get_device_serial_number(camera_, nullptr);
   description_ = std::string(model != nullptr ? model : "camera") + " " + (serial != nullptr ? serial : "");
@@ -144,7 +145,7 @@ void AravisSession::enlargeReceiveBuffer() {
 
 void AravisSession::onStream(void* session, int type, ArvBuffer* /*buffer*/) {
   if (type == ARV_STREAM_CALLBACK_TYPE_INIT)
-    arv_make_thread_high_priority(kStreamNiceness);  // where that is allowed
+    raisePriority(Urgency::kCapture);
   else if (type == ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE)
     static_cast<AravisSession*>(session)->receive();
 }
@@ -170,7 +171,7 @@ void AravisSession::receive() {
   frame.session = this;
   frame.buffer = buffer;
   frame.id = arv_buffer_get_frame_id(buffer);
-  frame.device_time = static_cast<TimeNs>(arv_buffer_get_timestamp(buffer));
+  frame.device_time = stampOf(buffer);
   frame.first_packet = frame.arrival - (worldNow() - static_cast<TimeNs>(arv_buffer_get_system_timestamp(buffer)));
   std::size_t size = 0;
   frame.image.data = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
@@ -194,6 +195,22 @@ void AravisSession::halt(bool alive) {
   arv_stream_start_thread(stream_);  // its end insists on a running thread
 }
 
+/// USB3 Vision counts nanoseconds.
+TimeNs AravisSession::fromTicks(std::uint64_t ticks) const {
+  if (tick_frequency_ == 0 || tick_frequency_ == static_cast<std::uint64_t>(kNanosecondsPerSecond))
+    return static_cast<TimeNs>(ticks);
+  return static_cast<TimeNs>(static_cast<double>(kNanosecondsPerSecond) / static_cast<double>(tick_frequency_) *
+                             static_cast<double>(ticks));
+}
+
+TimeNs AravisSession::stampOf(ArvBuffer* buffer) const {
+  if (chunks_ != nullptr && arv_buffer_has_chunks(buffer) != 0) {
+    const gint64 ticks = arv_chunk_parser_get_integer_value(chunks_, buffer, "ChunkTimestamp", nullptr);
+    if (ticks > 0) return fromTicks(static_cast<std::uint64_t>(ticks));
+  }
+  return static_cast<TimeNs>(arv_buffer_get_timestamp(buffer));
+}
+
 bool AravisSession::sampleClock(ClockSample& sample) {
   if (arv_camera_is_gv_device(camera_) == 0 || tick_frequency_ == 0) return false;
   ArvDevice* const device = arv_camera_get_device(camera_);
@@ -205,9 +222,7 @@ bool AravisSession::sampleClock(ClockSample& sample) {
   if (arv_device_read_register(device, kTimestampLow, &low, nullptr) == 0) return false;
   const std::uint64_t ticks = std::uint64_t{high} << 32 | low;
   if (ticks == 0) return false;
-  sample.device = static_cast<TimeNs>(static_cast<double>(kNanosecondsPerSecond) /
-                                      static_cast<double>(tick_frequency_) * static_cast<double>(ticks));
-  if (tick_frequency_ == static_cast<std::uint64_t>(kNanosecondsPerSecond)) sample.device = static_cast<TimeNs>(ticks);
+  sample.device = fromTicks(ticks);
   sample.host = before + (after - before) / 2;
   sample.sigma = (after - before) / 2 + 1000;
   return true;
@@ -215,6 +230,10 @@ bool AravisSession::sampleClock(ClockSample& sample) {
 
 void AravisSession::trigger() {
   arv_camera_software_trigger(camera_, nullptr);
+}
+
+void AravisSession::act(std::optional<TimeNs> when) {
+  if (!ip_.empty()) sendAction(ip_, when);
 }
 
 std::uint64_t AravisSession::resentPackets() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/cameras/clock_mapping.h"
@@ -11,6 +12,7 @@
 #include "engine/cameras/frame.h"
 
 struct _ArvBuffer;
+struct _ArvChunkParser;
 struct _ArvCamera;
 struct _ArvStream;
 
@@ -64,7 +66,10 @@ class AravisSession {
   bool readsClock() const { return tick_frequency_ > 0; }
   /// Read before it started; valid where its clock can be read.
   const ClockSample& firstSample() const { return first_sample_; }
+  /// Exposes now, if it waits for a command.
   void trigger();
+  /// Exposes when its clock reads `when`, or now, if it waits for an action.
+  void act(std::optional<TimeNs> when);
   std::uint64_t resentPackets() const;
   std::uint64_t incompleteFrames() const { return incomplete_.load(std::memory_order_relaxed); }
 
@@ -74,6 +79,8 @@ class AravisSession {
   void open(const std::string& device, const DeviceOptions& options, int width, int height);
   void start(const DeviceOptions& options);
   void enlargeReceiveBuffer();
+  TimeNs fromTicks(std::uint64_t ticks) const;
+  TimeNs stampOf(_ArvBuffer* buffer) const;
   void receive();
   void close();
 
@@ -82,6 +89,7 @@ class AravisSession {
   Sink sink_;
   _ArvCamera* camera_ = nullptr;
   _ArvStream* stream_ = nullptr;
+  _ArvChunkParser* chunks_ = nullptr;  ///< null: frames are stamped by their packets
   std::atomic<_ArvStream*> receiving_{nullptr};  ///< null: frames are of no use any more
   std::atomic<bool> control_lost_{false};
   std::atomic<TimeNs> last_frame_{0};
@@ -92,6 +100,7 @@ class AravisSession {
   std::uint64_t tick_frequency_ = 0;  ///< 0: the clock cannot be read
   ClockSample first_sample_;
   std::string description_;
+  std::string ip_;  ///< of a network camera
 };
 
 }  // namespace helical

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "engine/cameras/aravis/aravis_error.h"
+#include "engine/cameras/aravis/gvcp_action.h"
 
 namespace helical {
 namespace {
@@ -23,6 +25,8 @@ constexpr NamedFormat kFormats[] = {
     {ARV_PIXEL_FORMAT_BGR_8_PACKED, PixelFormat::kBgr8},   {ARV_PIXEL_FORMAT_RGB_8_PACKED, PixelFormat::kRgb8},
     {ARV_PIXEL_FORMAT_MONO_8, PixelFormat::kMono8},
 };
+
+constexpr int kActionNumber = 1;
 
 /// One camera while it is set up.
 class Setup {
@@ -146,6 +150,16 @@ void setLight(Setup& setup, const DeviceOptions& options) {
   balance(options.balance_blue, "Blue", "balance_blue");
 }
 
+void setActionKeys(Setup& setup) {
+  if (setup.has("ActionSelector")) setup.integer("ActionSelector", kActionNumber);
+  for (const auto& [feature, value] : {std::pair("ActionDeviceKey", kActionDeviceKey),
+                                       std::pair("ActionGroupKey", kActionGroupKey),
+                                       std::pair("ActionGroupMask", kActionGroupMask)}) {
+    if (!setup.has(feature)) setup.notOffered("actions", "use trigger = \"software\" or \"line\"");
+    setup.integer(feature, value);
+  }
+}
+
 void setTrigger(Setup& setup, const DeviceOptions& options) {
   setup.clearTriggers();
   if (options.trigger == TriggerMode::kFree) {
@@ -160,7 +174,16 @@ void setTrigger(Setup& setup, const DeviceOptions& options) {
   setup.text("TriggerSource", options.trigger == TriggerMode::kSoftware ? "Software"
                               : options.trigger == TriggerMode::kAction ? "Action1"
                                                                         : options.trigger_line.c_str());
+  if (options.trigger == TriggerMode::kAction) setActionKeys(setup);
   if (options.trigger == TriggerMode::kLine) setup.textIfThere("TriggerActivation", "RisingEdge");
+}
+
+/// The exposure's own stamp with each image, where the camera has one; its packets' may be those of their way out.
+void setChunks(Setup& setup) {
+  if (!setup.has("ChunkModeActive") || !setup.has("ChunkTimestamp")) return;
+  setup.flag("ChunkModeActive", true);
+  setup.textIfThere("ChunkSelector", "Timestamp");
+  setup.flag("ChunkEnable", true);
 }
 
 void setPtp(Setup& setup, bool on) {
@@ -178,6 +201,7 @@ void applySettings(_ArvCamera* camera, const DeviceOptions& options, int width, 
   setLight(setup, options);  // before the rate: a long exposure bounds it
   setTrigger(setup, options);
   setPtp(setup, options.ptp);
+  setChunks(setup);
   setup.textIfThere("AcquisitionMode", "Continuous");
   if (arv_camera_is_gv_device(camera) == 0) return;
   AravisError error;

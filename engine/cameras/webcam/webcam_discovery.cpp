@@ -14,6 +14,7 @@ namespace helical {
 namespace {
 
 namespace fs = std::filesystem;
+using Ioctl = std::function<int(unsigned long request, void* answer)>;
 
 std::string nameOf(std::uint32_t four_characters) {
   std::string name;
@@ -21,27 +22,39 @@ std::string nameOf(std::uint32_t four_characters) {
   return name;
 }
 
-void askRates(int device, std::uint32_t format, FoundCamera& found) {
+void addRate(const v4l2_fract& interval, FoundCamera& found) {
+  if (interval.numerator == 0) return;
+  const double rate = static_cast<double>(interval.denominator) / interval.numerator;
+  found.highest_rate_hz = std::max(found.highest_rate_hz, rate);
+  found.lowest_rate_hz = found.lowest_rate_hz > 0.0 ? std::min(found.lowest_rate_hz, rate) : rate;
+}
+
+void askRates(const Ioctl& ask, std::uint32_t format, std::uint32_t width, std::uint32_t height, FoundCamera& found) {
   v4l2_frmivalenum interval{};
   interval.pixel_format = format;
-  interval.width = static_cast<std::uint32_t>(found.width);
-  interval.height = static_cast<std::uint32_t>(found.height);
-  for (; ioctl(device, VIDIOC_ENUM_FRAMEINTERVALS, &interval) == 0; ++interval.index) {
-    if (interval.type != V4L2_FRMIVAL_TYPE_DISCRETE || interval.discrete.numerator == 0) return;
-    const double rate = static_cast<double>(interval.discrete.denominator) / interval.discrete.numerator;
-    found.highest_rate_hz = std::max(found.highest_rate_hz, rate);
-    found.lowest_rate_hz = found.lowest_rate_hz > 0.0 ? std::min(found.lowest_rate_hz, rate) : rate;
+  interval.width = width;
+  interval.height = height;
+  for (; ask(VIDIOC_ENUM_FRAMEINTERVALS, &interval) == 0; ++interval.index) {
+    if (interval.type == V4L2_FRMIVAL_TYPE_DISCRETE) {
+      addRate(interval.discrete, found);
+      continue;
+    }
+    addRate(interval.stepwise.min, found);
+    addRate(interval.stepwise.max, found);
+    return;
   }
 }
 
-void askSizes(int device, std::uint32_t format, FoundCamera& found) {
+void askSizes(const Ioctl& ask, std::uint32_t format, FoundCamera& found) {
   v4l2_frmsizeenum size{};
   size.pixel_format = format;
-  for (; ioctl(device, VIDIOC_ENUM_FRAMESIZES, &size) == 0; ++size.index) {
+  for (; ask(VIDIOC_ENUM_FRAMESIZES, &size) == 0; ++size.index) {
     const bool discrete = size.type == V4L2_FRMSIZE_TYPE_DISCRETE;
-    const auto width = static_cast<int>(discrete ? size.discrete.width : size.stepwise.max_width);
-    const auto height = static_cast<int>(discrete ? size.discrete.height : size.stepwise.max_height);
-    if (width * height > found.width * found.height) found.width = width, found.height = height;
+    const std::uint32_t width = discrete ? size.discrete.width : size.stepwise.max_width;
+    const std::uint32_t height = discrete ? size.discrete.height : size.stepwise.max_height;
+    const auto w = static_cast<int>(width), h = static_cast<int>(height);
+    if (w * h > found.width * found.height) found.width = w, found.height = h;
+    askRates(ask, format, width, height, found);
     if (!discrete) return;
   }
 }
@@ -56,25 +69,27 @@ bool inspect(const fs::path& path, FoundCamera& found) {
     found.owner = std::string("cannot be opened: ") + std::strerror(errno);
     return true;
   }
-  v4l2_capability capability{};
-  const bool captures = ioctl(device, VIDIOC_QUERYCAP, &capability) == 0 &&
-                        (capability.device_caps & V4L2_CAP_VIDEO_CAPTURE) != 0;
-  if (captures) {
-    found.name = reinterpret_cast<const char*>(capability.card);
-    found.serial = reinterpret_cast<const char*>(capability.bus_info);
-    v4l2_fmtdesc format{};
-    format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    for (; ioctl(device, VIDIOC_ENUM_FMT, &format) == 0; ++format.index) {
-      found.formats.push_back(nameOf(format.pixelformat));
-      askSizes(device, format.pixelformat, found);
-      askRates(device, format.pixelformat, found);
-    }
-  }
+  const bool captures =
+      describeWebcam([device](unsigned long request, void* answer) { return ioctl(device, request, answer); }, found);
   close(device);
   return captures;
 }
 
 }  // namespace
+
+bool describeWebcam(const Ioctl& ask, FoundCamera& found) {
+  v4l2_capability capability{};
+  if (ask(VIDIOC_QUERYCAP, &capability) != 0 || (capability.device_caps & V4L2_CAP_VIDEO_CAPTURE) == 0) return false;
+  found.name = reinterpret_cast<const char*>(capability.card);
+  found.serial = reinterpret_cast<const char*>(capability.bus_info);
+  v4l2_fmtdesc format{};
+  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  for (; ask(VIDIOC_ENUM_FMT, &format) == 0; ++format.index) {
+    found.formats.push_back(nameOf(format.pixelformat));
+    askSizes(ask, format.pixelformat, found);
+  }
+  return true;
+}
 
 std::vector<FoundCamera> findWebcams() {
   std::vector<fs::path> nodes;

@@ -14,6 +14,7 @@ constexpr std::uint16_t kControlPort = 3956;
 constexpr std::uint32_t kEverybody = 0xffffffff;
 constexpr std::size_t kHeader = 8;
 constexpr std::uint8_t kMagic = 0x42;
+constexpr std::uint8_t kScheduled = 0x80;
 constexpr std::size_t kLargestRead = 536;
 
 enum Command : std::uint16_t {
@@ -65,6 +66,7 @@ void ControlChannel::receive(DatagramSocket& socket, bool mute, double loss) {
   if (mute || received < static_cast<int>(kHeader) || datagram[0] != kMagic) return;
   Request request;
   request.wants_answer = (datagram[1] & 1) != 0;
+  request.scheduled = (datagram[1] & kScheduled) != 0;
   request.command = static_cast<std::uint16_t>(datagram[2] << 8 | datagram[3]);
   request.id = static_cast<std::uint16_t>(datagram[6] << 8 | datagram[7]);
   const std::size_t length = static_cast<std::size_t>(datagram[4] << 8 | datagram[5]);
@@ -101,7 +103,7 @@ bool ControlChannel::handle(const Request& request, const Peer& from, double los
         writeMemory(request, from, answer);
         break;
       case kAction:
-        if (state_.actionIsMine(request.word(0), request.word(4), request.word(8))) state_.trigger();
+        if (state_.actionIsMine(request.word(0), request.word(4), request.word(8))) act(request);
         break;
       default:
         answer.status = Status::kNotImplemented;
@@ -110,6 +112,12 @@ bool ControlChannel::handle(const Request& request, const Peer& from, double los
   }
   if (test_packet) sender_.sendTestPacket(*test_packet);
   return request.wants_answer || request.command == kDiscovery;
+}
+
+void ControlChannel::act(const Request& request) {
+  const TimeNs now = monotonicNow();
+  const auto when = static_cast<TimeNs>(std::uint64_t{request.word(12)} << 32 | request.word(16));
+  state_.triggerAt(request.scheduled ? when : state_.deviceTime(now), now);
 }
 
 void ControlChannel::readRegisters(const Request& request, Answer& answer) {

@@ -28,6 +28,7 @@ class ControlChannel {
     std::uint16_t command = 0;
     std::uint16_t id = 0;
     bool wants_answer = false;
+    bool scheduled = false;  ///< an action with a time
     std::span<const std::uint8_t> data;
     std::uint32_t word(std::size_t at) const;
   };
@@ -40,6 +41,7 @@ class ControlChannel {
   };
   void receive(DatagramSocket& socket, bool mute, double loss);
   bool handle(const Request& request, const Peer& from, double loss, Answer& answer);
+  void act(const Request& request);
   void readRegisters(const Request& request, Answer& answer);
   void writeRegisters(const Request& request, const Peer& from, Answer& answer);
   void readMemory(const Request& request, Answer& answer);

@@ -12,6 +12,7 @@ std::string_view deviceDescription() {
     xsi:schemaLocation="http://www.genicam.org/GenApi/Version_1_1 GenApiSchema_Version_1_1.xsd">
 <Category Name="Root"><pFeature>DeviceControl</pFeature><pFeature>ImageFormatControl</pFeature>
   <pFeature>AcquisitionControl</pFeature><pFeature>AnalogControl</pFeature><pFeature>ActionControl</pFeature>
+  <pFeature>ChunkDataControl</pFeature>
   <pFeature>TransportLayerControl</pFeature></Category>
 <Category Name="DeviceControl"><pFeature>DeviceVendorName</pFeature><pFeature>DeviceModelName</pFeature>
   <pFeature>DeviceVersion</pFeature><pFeature>DeviceManufacturerInfo</pFeature>
@@ -29,6 +30,8 @@ std::string_view deviceDescription() {
   <pFeature>BalanceRatio</pFeature></Category>
 <Category Name="ActionControl"><pFeature>ActionDeviceKey</pFeature><pFeature>ActionGroupKey</pFeature>
   <pFeature>ActionGroupMask</pFeature></Category>
+<Category Name="ChunkDataControl"><pFeature>ChunkModeActive</pFeature><pFeature>ChunkSelector</pFeature>
+  <pFeature>ChunkEnable</pFeature><pFeature>ChunkTimestamp</pFeature></Category>
 <Category Name="TransportLayerControl"><pFeature>PayloadSize</pFeature><pFeature>TLParamsLocked</pFeature>
   <pFeature>GevHeartbeatTimeout</pFeature><pFeature>GevSCPSPacketSize</pFeature><pFeature>GevSCPD</pFeature>
   <pFeature>GevTimestampTickFrequency</pFeature><pFeature>PtpEnable</pFeature><pFeature>PtpStatus</pFeature>
@@ -148,6 +151,21 @@ std::string_view deviceDescription() {
 <IntReg Name="ActionGroupMaskReg"><Address>0x2098</Address><Length>4</Length><AccessMode>RW</AccessMode>
   <pPort>Device</pPort><Cachable>NoCache</Cachable><Sign>Unsigned</Sign><Endianess>BigEndian</Endianess>
   </IntReg>
+<Boolean Name="ChunkModeActive"><pValue>ChunkModeReg</pValue><OnValue>1</OnValue><OffValue>0</OffValue></Boolean>
+<IntReg Name="ChunkModeReg"><Address>0x209c</Address><Length>4</Length><AccessMode>RW</AccessMode>
+  <pPort>Device</pPort><Cachable>NoCache</Cachable><Sign>Unsigned</Sign><Endianess>BigEndian</Endianess>
+  </IntReg>
+<Enumeration Name="ChunkSelector"><EnumEntry Name="Timestamp"><Value>0</Value></EnumEntry><Value>0</Value>
+  </Enumeration>
+<Boolean Name="ChunkEnable"><pValue>ChunkEnableReg</pValue><OnValue>1</OnValue><OffValue>0</OffValue></Boolean>
+<IntReg Name="ChunkEnableReg"><Address>0x20a0</Address><Length>4</Length><AccessMode>RW</AccessMode>
+  <pPort>Device</pPort><Cachable>NoCache</Cachable><Sign>Unsigned</Sign><Endianess>BigEndian</Endianess>
+  </IntReg>
+<Integer Name="ChunkTimestamp"><pValue>ChunkTimestampReg</pValue></Integer>
+<IntReg Name="ChunkTimestampReg"><Address>0x0</Address><Length>8</Length><AccessMode>RO</AccessMode>
+  <pPort>ChunkTimestampPort</pPort><Cachable>NoCache</Cachable><Sign>Unsigned</Sign><Endianess>BigEndian</Endianess>
+  </IntReg>
+<Port Name="ChunkTimestampPort"><ChunkID>2</ChunkID></Port>
 <Integer Name="PayloadSize"><pValue>PayloadSizeReg</pValue></Integer>
 <IntReg Name="PayloadSizeReg"><Address>0x201c</Address><Length>4</Length><AccessMode>RO</AccessMode>
   <pPort>Device</pPort><Cachable>NoCache</Cachable><Sign>Unsigned</Sign><Endianess>BigEndian</Endianess>

@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <utility>
 
+#include "engine/base/monotonic.h"
 #include "engine/simulator/gige/description.h"
 #include "engine/simulator/gige/pixel_formats.h"
 
@@ -18,6 +18,7 @@ constexpr double kHighestRate = 240.0;  // Hz, of the sensor
 constexpr std::uint32_t kControlBits = 3;
 constexpr std::uint32_t kFireTestPacket = 0x80000000;
 constexpr TimeNs kTickFrequency = kNanosecondsPerSecond;
+constexpr std::uint32_t kTriggeredByLine = 1, kTriggeredByAction = 2;  // 0: by software
 
 struct RealFeature {
   std::uint32_t address;
@@ -34,12 +35,6 @@ const RealFeature* realAt(std::uint32_t address) {
   return found == std::end(kReals) ? nullptr : found;
 }
 
-TimeNs worldTime() {
-  timespec time{};
-  clock_gettime(CLOCK_REALTIME, &time);
-  return static_cast<TimeNs>(time.tv_sec) * kNanosecondsPerSecond + time.tv_nsec;
-}
-
 }  // namespace
 
 int bitsPerPixel(std::uint32_t format) {
@@ -54,7 +49,8 @@ void DeviceState::restart(TimeNs now) {
   memory_ = RegisterMemory(deviceDescription());
   clock_.started = now;
   controller_ = {};
-  taken_ = trigger_ = test_packet_ = reset_ = false;
+  taken_ = test_packet_ = reset_ = false;
+  trigger_.reset();
   const std::pair<std::uint32_t, std::uint32_t> words[] = {
       {kVersion, 0x00010002},
       {kDeviceMode, 0x80000001},  // big-endian, UTF-8
@@ -93,7 +89,8 @@ void DeviceState::restart(TimeNs now) {
 
 void DeviceState::derive() {
   const auto bits = static_cast<std::uint32_t>(bitsPerPixel(memory_.word(kPixelFormat)));
-  memory_.setWord(kPayloadSize, memory_.word(kWidth) * memory_.word(kHeight) * bits / 8);
+  memory_.setWord(kPayloadSize, memory_.word(kWidth) * memory_.word(kHeight) * bits / 8 +
+                                    (exposing().chunks ? kChunkBytes : 0));
   memory_.setReal(kHighestFrameRate, std::min(kHighestRate, 1e6 / memory_.real(kExposureTime)));
   memory_.setReal(kFrameRate, std::min(memory_.real(kFrameRate), memory_.real(kHighestFrameRate)));
   memory_.setWord(kPtpStatus, memory_.word(kPtpEnable) & 1);
@@ -165,6 +162,10 @@ Status DeviceState::write(std::uint32_t address, std::uint32_t value, const Peer
     default:
       break;
   }
+  if (address == kTriggerSoftware) {
+    if (value != 0 && memory_.word(kTriggerSource) == 0) trigger_ = now;
+    return Status::kSuccess;
+  }
   if (address >= kFeatures && address < kFeaturesEnd) return writeFeature(address, value);
   if (address < kHeartbeatTimeout && address != kUserName && address != kStreamChannels) return Status::kWriteProtected;
   memory_.setWord(address, value);
@@ -204,9 +205,6 @@ Status DeviceState::writeFeature(std::uint32_t address, std::uint32_t value) {
     case kPayloadSize:
     case kPtpStatus:
       return Status::kWriteProtected;
-    case kTriggerSoftware:
-      trigger_ = trigger_ || (value != 0 && memory_.word(kTriggerSource) == 0);
-      return Status::kSuccess;
     case kDeviceReset:
       reset_ = value != 0;
       return Status::kSuccess;
@@ -248,6 +246,7 @@ Exposing DeviceState::exposing() const {
   e.listener = {memory_.word(kStreamDestination), static_cast<std::uint16_t>(memory_.word(kStreamPort))};
   e.acquiring = memory_.word(kAcquisition) != 0 && e.listener.port != 0 && controlled() && !taken_;
   e.triggered = memory_.word(kTriggerMode) != 0;
+  e.chunks = memory_.word(kChunkMode) != 0 && memory_.word(kChunkEnable) != 0;
   e.rate_hz = memory_.real(kFrameRate);
   e.exposure_us = memory_.real(kExposureTime);
   e.gain = std::pow(10.0, memory_.real(kGain) / 20.0);
@@ -262,9 +261,6 @@ Exposing DeviceState::exposing() const {
   return e;
 }
 
-bool DeviceState::takeTrigger() {
-  return std::exchange(trigger_, false);
-}
 bool DeviceState::takeTestPacketOrder() {
   return std::exchange(test_packet_, false);
 }
@@ -273,12 +269,20 @@ bool DeviceState::takeResetOrder() {
 }
 
 bool DeviceState::actionIsMine(std::uint32_t device_key, std::uint32_t group_key, std::uint32_t group_mask) const {
-  return memory_.word(kTriggerSource) == 2 && device_key == memory_.word(kActionDeviceKey) &&
+  return memory_.word(kTriggerSource) == kTriggeredByAction && device_key == memory_.word(kActionDeviceKey) &&
          group_key == memory_.word(kActionGroupKey) && (group_mask & memory_.word(kActionGroupMask)) != 0;
 }
 
+void DeviceState::triggerAt(TimeNs when, TimeNs now) {
+  trigger_ = memory_.word(kPtpEnable) != 0 ? now + when - deviceTime(now) : clock_.host(when);
+}
+
+void DeviceState::pulse(TimeNs now) {
+  if (memory_.word(kTriggerSource) == kTriggeredByLine) trigger_ = now;
+}
+
 TimeNs DeviceState::deviceTime(TimeNs now) const {
-  return memory_.word(kPtpEnable) != 0 ? worldTime() : clock_.device(now);
+  return memory_.word(kPtpEnable) != 0 ? worldNow() + now - monotonicNow() : clock_.device(now);
 }
 
 }  // namespace helical::gige

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "engine/simulator/datagram_socket.h"
 #include "engine/simulator/gige/device_clock.h"
@@ -33,6 +35,7 @@ struct Identity {
 struct Exposing {
   bool acquiring = false;  ///< and somebody listens
   bool triggered = false;
+  bool chunks = false;  ///< a timestamp of the exposure follows the pixels
   double rate_hz = 60.0;
   double exposure_us = 2000.0;
   double gain = 1.0;           ///< of light, relative to 0 dB
@@ -67,11 +70,15 @@ class DeviceState {
   void take(bool taken);
 
   Exposing exposing() const;
+  /// When a triggered exposure is to start, on CLOCK_MONOTONIC, once after it was ordered; nothing before.
+  std::optional<TimeNs> takeTrigger() { return std::exchange(trigger_, std::nullopt); }
   /// Each true once after the client ordered it.
-  bool takeTrigger();
   bool takeTestPacketOrder();
   bool takeResetOrder();
-  void trigger() { trigger_ = true; }
+  /// The exposure starts at `when` on its clock, at once if that has passed.
+  void triggerAt(TimeNs when, TimeNs now);
+  /// A pulse on line 1.
+  void pulse(TimeNs now);
   bool actionIsMine(std::uint32_t device_key, std::uint32_t group_key, std::uint32_t group_mask) const;
 
   DeviceClock& clock() { return clock_; }
@@ -92,10 +99,13 @@ class DeviceState {
   Peer controller_;
   TimeNs heard_ = 0;
   bool taken_ = false;
-  bool trigger_ = false;
+  std::optional<TimeNs> trigger_;
   bool test_packet_ = false;
   bool reset_ = false;
 };
+
+/// What follows the pixels of a frame with chunks: of the image its description alone, then the timestamp with its own.
+inline constexpr std::uint32_t kChunkBytes = 8 + 8 + 8;
 
 /// 0 for a format that the camera does not offer.
 int bitsPerPixel(std::uint32_t format);

@@ -14,7 +14,7 @@ constexpr std::uint32_t kHeaders = 20 + 8 + 8;  // IP, UDP and stream header cou
 constexpr std::uint32_t kUdpHeaders = 20 + 8;
 constexpr unsigned kBatch = 64;
 constexpr std::uint8_t kLeader = 1, kTrailer = 2, kPayload = 3;
-constexpr std::uint32_t kImage = 1;
+constexpr std::uint32_t kImage = 1, kImageWithChunks = 0x4001;
 
 /// Header of one packet, in network byte order.
 struct PacketHeader {
@@ -33,15 +33,15 @@ std::uint32_t FrameSender::KeptFrame::block() const {
 }
 
 std::uint32_t FrameSender::KeptFrame::packets() const {
-  return (static_cast<std::uint32_t>(pixels.size()) + block() - 1) / block() + 2;
+  return (static_cast<std::uint32_t>(payload.size()) + block() - 1) / block() + 2;
 }
 
-std::vector<std::uint8_t>& FrameSender::pixels(std::size_t size) {
+std::vector<std::uint8_t>& FrameSender::payload(std::size_t size) {
   const std::lock_guard lock(mutex_);
   KeptFrame& frame = kept_[next_];
   frame.id = 0;  // of no use to anybody while it is filled
-  frame.pixels.resize(size);
-  return frame.pixels;
+  frame.payload.resize(size);
+  return frame.payload;
 }
 
 void FrameSender::send(std::uint16_t id, TimeNs timestamp, const Exposing& exposing, double loss) {
@@ -81,6 +81,7 @@ void FrameSender::sendPackets(const KeptFrame& frame, std::uint32_t first, std::
   to.sin_family = AF_INET;
   to.sin_port = htons(frame.exposing.listener.port);
   to.sin_addr.s_addr = htonl(frame.exposing.listener.ip);
+  const std::uint32_t type = frame.exposing.chunks ? kImageWithChunks : kImage;
   const unsigned batch = frame.exposing.packet_delay > 0 ? 1 : kBatch;
   unsigned count = 0;
   const auto flush = [&] {
@@ -101,27 +102,31 @@ void FrameSender::sendPackets(const KeptFrame& frame, std::uint32_t first, std::
     const bool leader = i == 0, trailer = i == frame.packets() - 1;
     header.put(frame.id);
     header.put(std::uint32_t{leader ? kLeader : trailer ? kTrailer : kPayload} << 24 | i);
-    iovec& payload = parts[count][1];
-    payload = {};
+    iovec& part = parts[count][1];
+    part = {};
     if (leader) {
       const auto time = static_cast<std::uint64_t>(frame.timestamp);
       for (const std::uint32_t word :
-           {kImage, static_cast<std::uint32_t>(time >> 32), static_cast<std::uint32_t>(time), frame.exposing.format,
+           {type, static_cast<std::uint32_t>(time >> 32), static_cast<std::uint32_t>(time), frame.exposing.format,
             static_cast<std::uint32_t>(frame.exposing.width), static_cast<std::uint32_t>(frame.exposing.height),
             static_cast<std::uint32_t>(frame.exposing.offset_x), static_cast<std::uint32_t>(frame.exposing.offset_y),
             0U})
         header.put(word);
     } else if (trailer) {
-      header.put(kImage);
+      header.put(type);
       header.put(static_cast<std::uint32_t>(frame.exposing.height));
+      if (frame.exposing.chunks) {
+        header.put(static_cast<std::uint32_t>(frame.payload.size()));
+        header.put(0);  // they lie in every frame in the same way
+      }
     } else {
       const std::size_t at = std::size_t{i - 1} * frame.block();
-      payload = {const_cast<std::uint8_t*>(frame.pixels.data()) + at,
-                 std::min<std::size_t>(frame.block(), frame.pixels.size() - at)};
+      part = {const_cast<std::uint8_t*>(frame.payload.data()) + at,
+                 std::min<std::size_t>(frame.block(), frame.payload.size() - at)};
     }
     parts[count][0] = {header.bytes.data(), header.size};
     messages[count] = {};
-    messages[count].msg_hdr = {&to, sizeof to, parts[count].data(), payload.iov_len > 0 ? 2U : 1U, nullptr, 0, 0};
+    messages[count].msg_hdr = {&to, sizeof to, parts[count].data(), part.iov_len > 0 ? 2U : 1U, nullptr, 0, 0};
     if (++count == batch) flush();
   }
   if (count > 0) flush();

@@ -17,8 +17,8 @@ class FrameSender {
  public:
   explicit FrameSender(std::uint32_t ip, Random random) : socket_(ip, 0), random_(random) {}
 
-  /// Room for the next frame's pixels; `send` follows.
-  std::vector<std::uint8_t>& pixels(std::size_t size);
+  /// Room for the next frame's pixels and chunks; `send` follows.
+  std::vector<std::uint8_t>& payload(std::size_t size);
   /// Sends what was filled in. `loss`: share of packets that never arrive.
   void send(std::uint16_t id, TimeNs timestamp, const Exposing& exposing, double loss);
   /// Packets `first` to `last` of a frame that is still known. `loss` takes some of them, too.
@@ -33,7 +33,7 @@ class FrameSender {
     std::uint16_t id = 0;
     TimeNs timestamp = 0;
     Exposing exposing;
-    std::vector<std::uint8_t> pixels;
+    std::vector<std::uint8_t> payload;
     std::uint32_t packets() const;
     std::uint32_t block() const;
   };

@@ -67,6 +67,8 @@ inline constexpr std::uint32_t kDeviceReset = 0x208c;
 inline constexpr std::uint32_t kActionDeviceKey = 0x2090;
 inline constexpr std::uint32_t kActionGroupKey = 0x2094;
 inline constexpr std::uint32_t kActionGroupMask = 0x2098;
+inline constexpr std::uint32_t kChunkMode = 0x209c;
+inline constexpr std::uint32_t kChunkEnable = 0x20a0;  ///< of the timestamp
 inline constexpr std::uint32_t kFeaturesEnd = 0x2100;
 
 inline constexpr std::uint32_t kRegisterMemory = 0x4000;  ///< bytes; the description stands behind them

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/base/monotonic.h"
+#include "engine/base/thread_priority.h"
 
 namespace helical::gige {
 namespace {
@@ -12,6 +15,17 @@ namespace {
 constexpr int kControlTimeoutMs = 20;
 constexpr auto kIdle = std::chrono::milliseconds(20);
 constexpr TimeNs kLongestSleep = 50 * kNanosecondsPerMillisecond;
+constexpr TimeNs kLateFrames = 4;  // so many are sent late, when this machine stalled, before one is left out
+
+/// Image and timestamp, each described behind it, by number and size.
+void putChunks(std::span<std::uint8_t> payload, std::size_t image, TimeNs timestamp) {
+  constexpr std::uint32_t kImageChunk = 1, kTimestampChunk = 2;
+  const auto time = static_cast<std::uint64_t>(timestamp);
+  std::size_t at = image;
+  for (const std::uint32_t word : {kImageChunk, static_cast<std::uint32_t>(image), static_cast<std::uint32_t>(time >> 32),
+                                   static_cast<std::uint32_t>(time), kTimestampChunk, std::uint32_t{sizeof time}})
+    for (int shift = 24; shift >= 0; shift -= 8) payload[at++] = static_cast<std::uint8_t>(word >> shift);
+}
 
 }  // namespace
 
@@ -46,6 +60,14 @@ void VirtualCamera::setClock(double offset_s, double drift) {
   state_.clock().drift = drift;
 }
 
+void VirtualCamera::pulseLine() {
+  {
+    const std::lock_guard lock(mutex_);
+    state_.pulse(monotonicNow());
+  }
+  changed_.notify_all();
+}
+
 void VirtualCamera::reboot(double off_s) {
   const std::lock_guard lock(mutex_);
   const TimeNs now = monotonicNow();
@@ -60,6 +82,11 @@ bool VirtualCamera::controlled() const {
 
 VirtualCamera::Counts VirtualCamera::counts() const {
   return {frames_.load(std::memory_order_relaxed), missed_.load(std::memory_order_relaxed), sender_.resent()};
+}
+
+TimeNs VirtualCamera::deviceNow() const {
+  const std::lock_guard lock(mutex_);
+  return state_.deviceTime(monotonicNow());
 }
 
 CameraFaults VirtualCamera::faults() const {
@@ -86,6 +113,7 @@ void VirtualCamera::control(const std::stop_token& stop) {
 }
 
 void VirtualCamera::stream(const std::stop_token& stop) {
+  raisePriority(Urgency::kCapture);
   while (!stop.stop_requested()) {
     Exposing exposing;
     {
@@ -118,11 +146,13 @@ void VirtualCamera::stream(const std::stop_token& stop) {
 
 bool VirtualCamera::waitForTrigger(TimeNs& mid_exposure, const Exposing& exposing) {
   std::unique_lock lock(mutex_);
-  if (!state_.takeTrigger()) {
+  std::optional<TimeNs> start = state_.takeTrigger();
+  if (!start) {
     changed_.wait_for(lock, kIdle);
-    if (!state_.takeTrigger()) return false;
+    start = state_.takeTrigger();
   }
-  mid_exposure = monotonicNow() + fromSeconds(0.5e-6 * exposing.exposure_us);
+  if (!start) return false;
+  mid_exposure = std::max(*start, monotonicNow()) + fromSeconds(0.5e-6 * exposing.exposure_us);
   return true;
 }
 
@@ -152,20 +182,23 @@ void VirtualCamera::expose(const Exposing& exposing, TimeNs mid_exposure) {
     timestamp = state_.deviceTime(mid_exposure) - half;
     if (!exposing.triggered) {
       last_exposure_ += period;
-      const TimeNs behind = state_.clock().device(monotonicNow()) - last_exposure_;
-      late = static_cast<std::uint64_t>(std::max<TimeNs>(0, behind / period));
+      const TimeNs behind = (state_.clock().device(monotonicNow()) - last_exposure_) / period;
+      late = behind > kLateFrames ? static_cast<std::uint64_t>(behind) : 0;
       last_exposure_ += static_cast<TimeNs>(late) * period;
     }
   }
   const auto bits = static_cast<std::size_t>(bitsPerPixel(exposing.format));
   const auto size = static_cast<std::size_t>(exposing.width) * static_cast<std::size_t>(exposing.height) * bits / 8;
+  const std::size_t whole = size + (exposing.chunks ? kChunkBytes : 0);
   if (++id_ == 0) id_ = 1;
   const CameraFaults faulty = faults();
   if (!faulty.mute) {
-    readout_.read(lens_(mid_exposure), exposing, sender_.pixels(size));
+    std::vector<std::uint8_t>& payload = sender_.payload(whole);
+    readout_.read(lens_(mid_exposure), exposing, std::span(payload).first(size));
+    if (exposing.chunks) putChunks(std::span(payload), size, timestamp);
     const TimeNs readout = std::min(fromSeconds(options_.readout_s), period / 2);
     sleepUntilMonotonic(mid_exposure + readout + fromSeconds(faulty.jitter_s * random_.uniform()));
-    sender_.send(id_, timestamp, exposing, faulty.loss);
+    sender_.send(id_, exposing.chunks ? deviceNow() : timestamp, exposing, faulty.loss);
     frames_.fetch_add(1, std::memory_order_relaxed);
   }
   for (; late > 0; --late, missed_.fetch_add(1, std::memory_order_relaxed))

@@ -52,6 +52,8 @@ class VirtualCamera {
   void setFaults(const CameraFaults& faults);
   /// Its clock from now on: off by `offset_s` beside what it would be, fast by `drift`.
   void setClock(double offset_s, double drift);
+  /// Exposes, if it waits for line 1.
+  void pulseLine();
   /// Forgets everything, and is silent for `off_s`.
   void reboot(double off_s);
 
@@ -65,6 +67,8 @@ class VirtualCamera {
   void expose(const Exposing& exposing, TimeNs mid_exposure);
   TimeNs nextExposure(const Exposing& exposing, TimeNs now);
   CameraFaults faults() const;
+  /// With chunks, a frame's own timestamp is that of its way out, as with cameras that stamp their packets.
+  TimeNs deviceNow() const;
   bool waitForTrigger(TimeNs& mid_exposure, const Exposing& exposing);
 
   const Options options_;

@@ -1,4 +1,4 @@
-#include "app/media_reader.h"
+#include "engine/cameras/file/media_reader.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,13 +9,13 @@
 #include <iterator>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/cameras/video/video_capture.h"
 
 namespace helical {
 namespace {
@@ -66,16 +66,24 @@ Error notMedia(const fs::path& file) {
           "give a PNG, a JPEG, an MP4 or a folder of images"};
 }
 
-cv::Mat decodeImage(const fs::path& file, const std::string& where) {
+/// With its pixels.
+MediaFrame decodeImage(const fs::path& file, const std::string& where) {
   if (isCutOffJpeg(file)) throw Error(ErrorKind::kInput, "the image is cut off", where, kDamagedCure);
-  cv::Mat image;
+  const auto image = std::make_shared<cv::Mat>();
   try {
-    image = cv::imread(file.string(), cv::IMREAD_COLOR);
+    *image = cv::imread(file.string(), cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
-    image.release();
+    image->release();
   }
-  if (image.empty()) throw Error(ErrorKind::kInput, "the image is damaged or cut off", where, kDamagedCure);
-  return image;
+  if (image->empty()) throw Error(ErrorKind::kInput, "the image is damaged or cut off", where, kDamagedCure);
+  MediaFrame frame;
+  frame.bgr = {image->data, image->cols, image->rows, static_cast<int>(image->step), PixelFormat::kBgr8};
+  frame.pixels = image;
+  return frame;
+}
+
+std::string sizeName(const ImageView& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
 /// One image, or the images of a folder.
@@ -87,42 +95,39 @@ class ImageFiles final : public MediaReader {
     if (next_ == files_.size()) return false;
     const fs::path& file = files_[next_];
     const std::string where = file.string() + ", " + frameName(static_cast<int>(next_));
-    frame.bgr = decodeImage(file, where);
-    if (next_ == 0) size_ = frame.bgr.size();
-    if (frame.bgr.size() != size_)
-      throw Error(
-          ErrorKind::kInput,
-          "the image has " + sizeName(frame.bgr.size()) + " pixels, those before it " + sizeName(size_),
-          where, "keep images of one size in a folder");
+    frame = decodeImage(file, where);
+    if (next_ == 0) first_ = frame.bgr;
+    if (frame.bgr.width != first_.width || frame.bgr.height != first_.height)
+      throw Error(ErrorKind::kInput,
+                  "the image has " + sizeName(frame.bgr) + " pixels, those before it " + sizeName(first_), where,
+                  "keep images of one size in a folder");
     frame.index = static_cast<int>(next_++);
-    frame.time_s = files_.size() == 1 ? std::optional(0.0) : std::nullopt;
+    if (files_.size() == 1) frame.time_s = 0.0;
     return true;
   }
   int frameCount() const override { return static_cast<int>(files_.size()); }
+  double rate() const override { return 0.0; }
 
  private:
-  static std::string sizeName(cv::Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-  }
-
   std::vector<fs::path> files_;
   std::size_t next_ = 0;
-  cv::Size size_;
+  ImageView first_;  ///< for its size
 };
 
 class VideoFile final : public MediaReader {
  public:
-  explicit VideoFile(const fs::path& file) : file_(file) {
-    if (!capture_.open(file.string(), cv::CAP_FFMPEG))
+  explicit VideoFile(const fs::path& file) : file_(file), capture_(makeVideoCapture()) {
+    if (!capture_->openFile(file.string()))
       throw Error(ErrorKind::kInput,
                   "this is no image or video that can be read, or it is damaged or cut off at frame 0",
                   file.string(), kDamagedCure);
-    count_ = std::max(0, static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_COUNT)));
-    rate_ = capture_.get(cv::CAP_PROP_FPS);
+    count_ = std::max(0, static_cast<int>(capture_->get(VideoCapture::Property::kFrameCount)));
+    rate_ = capture_->get(VideoCapture::Property::kRate);
   }
 
   bool next(MediaFrame& frame) override {
-    if (!capture_.read(frame.bgr) || frame.bgr.empty()) {
+    frame.pixels.reset();
+    if (!capture_->read(frame.bgr)) {
       checkWhole();
       return false;
     }
@@ -131,6 +136,7 @@ class VideoFile final : public MediaReader {
     return true;
   }
   int frameCount() const override { return count_; }
+  double rate() const override { return rate_; }
 
  private:
   /// MP4 and AVI keep an index of their frames; elsewhere the number is estimated from the length.
@@ -147,7 +153,7 @@ class VideoFile final : public MediaReader {
   }
 
   fs::path file_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<VideoCapture> capture_;
   int count_ = 0;
   int next_ = 0;
   double rate_ = 0.0;
@@ -173,7 +179,6 @@ std::vector<fs::path> imagesIn(const fs::path& folder) {
 /// The libraries behind OpenCV print on their own what our errors say better.
 void silenceDecoders() {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
 }
 
 }  // namespace
@@ -187,7 +192,7 @@ std::unique_ptr<MediaReader> MediaReader::open(const fs::path& media) {
   return std::make_unique<VideoFile>(media);
 }
 
-cv::Mat readImage(const fs::path& file) {
+MediaFrame readImage(const fs::path& file) {
   silenceDecoders();
   checkReadable(file);
   if (!cv::haveImageReader(file.string()))

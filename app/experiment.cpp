@@ -10,6 +10,7 @@ void addExperimentCommand(CLI::App& app, int& exit_code) {
   addCorrespondenceExperiment(*experiments, exit_code);
   addMatsukawa2010Experiment(*experiments, exit_code);
   addCalibrationExperiment(*experiments, exit_code);
+  addFaultsExperiment(*experiments, exit_code);
 }
 
 }  // namespace helical

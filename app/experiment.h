@@ -19,4 +19,8 @@ void addMatsukawa2010Experiment(CLI::App& experiments, int& exit_code);
 /// Adds `calibration` to the group: how near every method comes to the Cramer-Rao bound, and how fast.
 void addCalibrationExperiment(CLI::App& experiments, int& exit_code);
 
+/// Adds `faults` to the group: random faults in flight, and what became of them. Sets `exit_code` to 1 when something
+/// happened that must not.
+void addFaultsExperiment(CLI::App& experiments, int& exit_code);
+
 }  // namespace helical

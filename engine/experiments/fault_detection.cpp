@@ -1,0 +1,85 @@
+#include "engine/experiments/fault_detection.h"
+
+#include <cmath>
+#include <limits>
+
+namespace helical {
+namespace {
+
+constexpr double kPatience = 1.5;  // limits, that a fault must last to count
+
+bool alarms(const EngineSnapshot& tick, Failsafe failsafe) {
+  return (tick.alarms & bitOf(failsafe)) != 0;
+}
+
+const CameraSnapshot& cameraOf(const Fault& fault, const EngineSnapshot& tick) {
+  return tick.cameras[static_cast<std::size_t>(fault.camera.index())];
+}
+
+/// Those whose rule needs rotors that turn.
+bool needsRotors(FaultKind kind) {
+  return kind == FaultKind::kCamerasHidden || kind == FaultKind::kCamerasSwapped || kind == FaultKind::kCameraKnocked;
+}
+
+}  // namespace
+
+FaultDetection::FaultDetection(const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults)
+    if (!std::isnan(detectionLimit(fault.kind))) watched_.push_back({.fault = fault});
+}
+
+bool FaultDetection::isNoticed(const Watched& watched, const EngineSnapshot& tick) {
+  const CameraSnapshot& camera = cameraOf(watched.fault, tick);
+  switch (watched.fault.kind) {
+    case FaultKind::kCamerasHidden:
+      return alarms(tick, Failsafe::kNoPoseCoast);
+    case FaultKind::kCameraLost:
+      return alarms(tick, Failsafe::kCameraSilent);
+    case FaultKind::kCameraLate:
+    case FaultKind::kClockJump:
+      return alarms(tick, Failsafe::kCameraClock);
+    case FaultKind::kCameraKnocked:
+    case FaultKind::kCamerasSwapped:
+      return camera.knocks_found > watched.knocks_before || camera.estimate.status == CameraStatus::kRejected ||
+             tick.cameras_disagree || alarms(tick, Failsafe::kUncertain) || alarms(tick, Failsafe::kNoPoseCoast);
+    case FaultKind::kTransmitterUnplugged:
+    case FaultKind::kTransmitterStalled:
+      return alarms(tick, Failsafe::kTransmitterFault);
+    case FaultKind::kProcessorStarved:
+      return alarms(tick, Failsafe::kOverrun);
+    case FaultKind::kDiskFull:
+      return alarms(tick, Failsafe::kRecord);
+    default:
+      return false;
+  }
+}
+
+void FaultDetection::add(const EngineSnapshot& tick) {
+  const double time_s = toSeconds(tick.time);
+  for (Watched& w : watched_) {
+    if (time_s < w.fault.from_s) continue;
+    const bool over = tick.phase == FlightPhase::kOff || tick.verdict.crashed || time_s >= w.fault.to_s;
+    const bool watchable = !over && (!needsRotors(w.fault.kind) || rotorsTurn(tick.phase)) && tick.has_truth;
+    if (!w.began) {
+      w.began = true;
+      w.knocks_before = cameraOf(w.fault, tick).knocks_found;
+      w.counts = watchable && !isNoticed(w, tick);
+    }
+    if (!w.counts || w.detected_s >= 0.0) continue;
+    if (watchable) w.watched_until_s = time_s;
+    if (isNoticed(w, tick)) w.detected_s = time_s;
+    if (!watchable) w.counts = w.detected_s >= 0.0 || w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
+  }
+}
+
+std::vector<Detection> FaultDetection::result() const {
+  std::vector<Detection> all;
+  for (const Watched& w : watched_) {
+    const bool long_enough = w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
+    if (!w.counts || (w.detected_s < 0.0 && !long_enough)) continue;
+    all.push_back({w.fault.kind, w.detected_s >= 0.0 ? w.detected_s - w.fault.from_s : std::numeric_limits<double>::infinity()});
+  }
+  return all;
+}
+
+}  // namespace helical

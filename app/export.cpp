@@ -4,30 +4,28 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/progress.h"
+#include "app/session_export.h"
 #include "engine/base/error.h"
 #include "engine/base/log.h"
-#include "engine/session/csv_export.h"
-#include "engine/session/video_export.h"
 #ifdef HELICAL_HAS_WINDOW
-#include "engine/session/session_summary.h"
-#include "ui/figures/figure_file.h"
+#include "app/scene_export.h"
 #include "ui/figures/offscreen_application.h"
-#include "ui/figures/session_figures.h"
-#include "ui/figures/session_report.h"
 #endif
 
 namespace helical {
 namespace {
 
-using Files = std::vector<std::filesystem::path>;
-
 struct Arguments {
   std::string session;
   std::vector<std::string> formats;
+  std::vector<std::string> streams;
+  double from_s = 0.0;
+  double to_s = -1.0;  ///< negative: to the end
   std::string out;
 };
 
@@ -41,6 +39,8 @@ void requireFormats(const Arguments& arguments) {
     if (format != "csv" && format != "mp4" && format != "pdf" && format != "png")
       throw Error(ErrorKind::kInput, "unknown format '" + format + "'", "--format",
                   "give csv, mp4, pdf or png");
+  if (arguments.to_s >= 0.0 && arguments.to_s <= arguments.from_s)
+    throw Error(ErrorKind::kInput, "the span ends before it begins", "--to", "give a later time than --from");
 #ifndef HELICAL_HAS_WINDOW
   if (asksFor(arguments, "pdf") || asksFor(arguments, "png"))
     throw Error(ErrorKind::kInput, "pdf and png need figures, and this build draws none", "--format",
@@ -48,66 +48,42 @@ void requireFormats(const Arguments& arguments) {
 #endif
 }
 
-void warnOfDamage(const McapReader& session, std::uint64_t damaged_chunks) {
-  if (!session.complete())
-    log(LogLevel::kWarning, session.file().string() + " was cut off: `helical recover` mends it");
-  if (damaged_chunks > 0)
-    log(LogLevel::kWarning,
-        session.file().string() + ": " + std::to_string(damaged_chunks) + " damaged chunks are left out");
+ExportOrder orderOf(const Arguments& arguments) {
+  ExportOrder order;
+  order.session = arguments.session;
+  order.folder = arguments.out;
+  order.tables = asksFor(arguments, "csv");
+  order.topics = {arguments.streams.begin(), arguments.streams.end()};
+  order.films = asksFor(arguments, "mp4");
+  order.png = asksFor(arguments, "png");
+  order.pdf = asksFor(arguments, "pdf");
+  order.span.from = fromSeconds(arguments.from_s);
+  if (arguments.to_s >= 0.0) order.span.to = fromSeconds(arguments.to_s);
+  return order;
 }
 
-void append(Files& files, const Files& more) {
-  files.insert(files.end(), more.begin(), more.end());
-}
-
-Files exportFilms(const Arguments& arguments) {
-  Progress progress("Films");
-  const VideoExport films = exportVideo(arguments.session, arguments.out, [&](double done) {
-    progress.update(done);
-    return true;
-  });
-  for (const auto& label : films.without_images)
-    log(LogLevel::kWarning, "no film of camera " + label + ": the session holds no images of it");
-  return films.files;
-}
-
-#ifdef HELICAL_HAS_WINDOW
-/// Of each figure what was asked for; the report holds all of them.
-Files exportFigures(const Arguments& arguments, McapReader& session) {
-  Progress progress("Figures");
-  const SessionSummary summary = summarize(session, [&](double done) { progress.update(0.5 * done); });
-  std::filesystem::create_directories(arguments.out);
-  const figures::OffscreenApplication application;
-  Files files;
-  const auto all = figures::sessionFigures(summary);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    progress.update(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(all.size()),
-                    all[i].title.toStdString());
-    if (asksFor(arguments, "png")) files.push_back(figures::writePng(all[i], arguments.out));
-    if (asksFor(arguments, "pdf")) files.push_back(figures::writePdf(all[i], arguments.out));
-  }
-  if (asksFor(arguments, "pdf")) files.push_back(figures::writeSessionReport(summary, arguments.out));
-  return files;
-}
-#endif
-
-int exportSession(const Arguments& arguments) {
+int runExport(const Arguments& arguments) {
   requireFormats(arguments);
-  McapReader session(arguments.session);
-  Files files;
-  std::uint64_t damaged_chunks = 0;
-  if (asksFor(arguments, "csv")) {
-    const CsvExport tables = exportCsv(session, arguments.out);
-    damaged_chunks = tables.reading.damaged_chunks;
-    append(files, tables.files);
-  }
+  ExportOrder order = orderOf(arguments);
 #ifdef HELICAL_HAS_WINDOW
-  if (asksFor(arguments, "pdf") || asksFor(arguments, "png"))
-    append(files, exportFigures(arguments, session));
+  std::optional<SceneApplication> display;  // before any other application object
+  if (order.films && SceneApplication::possible()) {
+    display.emplace();
+    order.scene = true;
+  }
+  std::optional<figures::OffscreenApplication> figures;
+  if (order.png || order.pdf) figures.emplace();
 #endif
-  if (asksFor(arguments, "mp4")) append(files, exportFilms(arguments));
-  warnOfDamage(session, damaged_chunks);
-  for (const auto& file : files) std::printf("%s\n", file.string().c_str());
+  SessionExport done;
+  {
+    Progress progress("Export");
+    done = exportSession(order, [&](double share, const std::string& step) { progress.update(share, step); });
+#ifdef HELICAL_HAS_WINDOW
+    if (order.scene) done.files.push_back(exportScene(order, [&](double share) { progress.update(share, "3D view"); }));
+#endif
+  }
+  for (const auto& warning : done.warnings) log(LogLevel::kWarning, warning);
+  for (const auto& file : done.files) std::printf("%s\n", file.string().c_str());
   return 0;
 }
 
@@ -118,13 +94,18 @@ void addExportCommand(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("export", "A recorded session as files for other programs");
   command->add_option("SESSION", arguments->session, "The session's MCAP file")->required();
   command
-      ->add_option(
-          "--format", arguments->formats,
-          "csv: a table a stream; png, pdf: figures, pdf also a report; mp4: films of recorded images")
+      ->add_option("--format", arguments->formats,
+                   "csv: a table a stream; png, pdf: figures, pdf also a report; mp4: films of recorded images, and "
+                   "where there is an X display of the 3D view")
       ->delimiter(',')
       ->required();
+  command->add_option("--streams", arguments->streams, "Tables of these alone: /helicopter/pose,/sticks,...")
+      ->delimiter(',');
+  command->add_option("--from", arguments->from_s, "Only what was after this time of the session [s]")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--to", arguments->to_s, "Only what was before this time [s]")->check(CLI::PositiveNumber);
   command->add_option("--out", arguments->out, "Folder for the files")->required();
-  command->callback([arguments, &exit_code] { exit_code = exportSession(*arguments); });
+  command->callback([arguments, &exit_code] { exit_code = runExport(*arguments); });
 }
 
 }  // namespace helical

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/calibrate.h"
+#include "app/compare.h"
 #include "app/detect.h"
 #include "app/devices.h"
 #include "app/doctor.h"
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   });
   helical::addFlyCommand(app, exit_code);
   helical::addCalibrateCommand(app, exit_code);
+  helical::addCompareCommand(app, exit_code);
   helical::addDetectCommand(app, exit_code);
   helical::addDevicesCommand(app, exit_code);
   helical::addDoctorCommand(app, exit_code);

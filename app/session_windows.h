@@ -1,12 +1,17 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <memory>
 #include <string>
 #include <vector>
 
+class QWidget;
+
 namespace helical {
 
+class Comparison;
+class ExportJob;
 class FlightPlayback;
 class MainWindow;
 
@@ -21,6 +26,8 @@ class SessionWindows {
   void open(const std::string& file);
   /// The same for files that the user chose: tells what is wrong with it.
   void openChosen(const QString& file);
+  void exportChosen(const QString& file);
+  void compareChosen(const QStringList& files);
 
  private:
   struct Opened {
@@ -28,9 +35,13 @@ class SessionWindows {
     std::unique_ptr<MainWindow> window;
   };
   void closeHidden();
+  void listenTo(MainWindow& window);
+  QWidget* anyWindow() const;
 
   MainWindow* flying_;
   std::vector<Opened> opened_;
+  std::vector<std::unique_ptr<ExportJob>> exports_;
+  std::vector<std::unique_ptr<Comparison>> comparisons_;
 };
 
 }  // namespace helical

@@ -16,8 +16,10 @@ namespace helical {
 
 MainMenus::MainMenus(const RigConfig& rig, const Panels& panels, QMenuBar& bar, QMainWindow& window)
     : QObject(&window), rig_(rig), panels_(panels), window_(window) {
-  bar.addMenu(tr("F&ile"))
-      ->addAction(tr("Open session..."), QKeySequence::Open, this, &MainMenus::openRequested);
+  QMenu* file = bar.addMenu(tr("F&ile"));
+  file->addAction(tr("Open session..."), QKeySequence::Open, this, &MainMenus::openRequested);
+  file->addAction(tr("Export session..."), QKeySequence(Qt::CTRL | Qt::Key_E), this, &MainMenus::exportRequested);
+  file->addAction(tr("Compare sessions..."), this, &MainMenus::compareRequested);
   buildFlight(*bar.addMenu(tr("&Flight")));
   buildCameras(*bar.addMenu(tr("&Cameras")));
   buildDisturb(*bar.addMenu(tr("&Disturb")));

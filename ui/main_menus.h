@@ -41,6 +41,8 @@ class MainMenus : public QObject {
 
  Q_SIGNALS:
   void openRequested();
+  void exportRequested();
+  void compareRequested();
   void takeOffRequested();
   void landRequested();
   void stopRequested();

@@ -122,6 +122,7 @@ void MainWindow::attach(FlightPlayback& playback) {
   playback_bar_ = new PlaybackBar(playback);
   statusBar()->insertWidget(0, playback_bar_, 1);
   newest_event_->hide();
+  session_file_ = QString::fromStdString(playback.file().string());
   // Nobody flies here.
   plan_->setEnabled(false);
   gains_->setEnabled(false);
@@ -307,6 +308,8 @@ void MainWindow::buildMenus() {
                            docks_.calibration, docks_.events}},
                          *top_bar_->menuBar(), *this);
   connect(menus_, &MainMenus::openRequested, this, &MainWindow::chooseSession);
+  connect(menus_, &MainMenus::exportRequested, this, &MainWindow::chooseExport);
+  connect(menus_, &MainMenus::compareRequested, this, &MainWindow::chooseComparison);
   connect(menus_, &MainMenus::takeOffRequested, orders_, &EngineOrders::takeOff);
   connect(menus_, &MainMenus::landRequested, orders_, &EngineOrders::land);
   connect(menus_, &MainMenus::stopRequested, orders_, &EngineOrders::stop);
@@ -330,6 +333,24 @@ void MainWindow::buildMenus() {
 void MainWindow::chooseSession() {
   askWhatToOpen(this, tr("Open a recorded flight"), options_.session_folder, tr("Sessions (*.mcap)"),
                 [this](const QString& file) { Q_EMIT sessionChosen(file); });
+}
+
+void MainWindow::chooseExport() {
+  if (!session_file_.isEmpty()) {
+    Q_EMIT exportChosen(session_file_);
+    return;
+  }
+  askWhatToOpen(this, tr("Export a recorded flight"), options_.session_folder, tr("Sessions (*.mcap)"),
+                [this](const QString& file) { Q_EMIT exportChosen(file); });
+}
+
+void MainWindow::chooseComparison() {
+  const QString title =
+      session_file_.isEmpty() ? tr("Compare recorded flights") : tr("Compare this flight with others");
+  askWhichToOpen(this, title, options_.session_folder, tr("Sessions (*.mcap)"), [this](QStringList files) {
+    if (!session_file_.isEmpty() && !files.contains(session_file_)) files.prepend(session_file_);
+    Q_EMIT comparisonChosen(files);
+  });
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -80,6 +80,10 @@ class MainWindow : public QMainWindow {
  Q_SIGNALS:
   /// File > Open session, or a file dragged onto the window.
   void sessionChosen(const QString& file);
+  /// File > Export session: the one that is shown, or one that was asked for.
+  void exportChosen(const QString& file);
+  /// File > Compare sessions: with the one that is shown, if there is one.
+  void comparisonChosen(const QStringList& files);
   void firstImage(qint64 since_process_start_ns);
 
  public Q_SLOTS:
@@ -102,6 +106,8 @@ class MainWindow : public QMainWindow {
 
   void watch(FlightView& view);
   void chooseSession();
+  void chooseExport();
+  void chooseComparison();
   void tick();
   void fetchTicks();
   void fetchPictures();
@@ -116,6 +122,7 @@ class MainWindow : public QMainWindow {
   FlightView* view_ = nullptr;  ///< what is shown
   Engine* engine_ = nullptr;    ///< the same where it can be commanded
   PlaybackBar* playback_bar_ = nullptr;
+  QString session_file_;  ///< of the recorded flight that is shown
   QTimer timer_;
   QElapsedTimer since_load_;
   std::uint64_t ticks_ = 0;

@@ -37,4 +37,12 @@ void askWhatToOpen(QWidget* parent, const QString& title, const QString& folder,
   openDialog(dialog);
 }
 
+void askWhichToOpen(QWidget* parent, const QString& title, const QString& folder, const QString& filter,
+                    const std::function<void(const QStringList&)>& then) {
+  auto* dialog = new QFileDialog(parent, title, folder, filter);
+  dialog->setFileMode(QFileDialog::ExistingFiles);
+  QObject::connect(dialog, &QFileDialog::filesSelected, parent, then);
+  openDialog(dialog);
+}
+
 }  // namespace helical

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <functional>
 
 class QDialog;
@@ -19,5 +20,8 @@ void askWhereToSave(QWidget* parent, const QString& title, const QString& name, 
                     const std::function<void(const QString&)>& then);
 void askWhatToOpen(QWidget* parent, const QString& title, const QString& folder, const QString& filter,
                    const std::function<void(const QString&)>& then);
+/// The same for several files.
+void askWhichToOpen(QWidget* parent, const QString& title, const QString& folder, const QString& filter,
+                    const std::function<void(const QStringList&)>& then);
 
 }  // namespace helical

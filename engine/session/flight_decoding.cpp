@@ -144,6 +144,12 @@ DecodedTick decodeFlightState(std::string_view payload, EngineSnapshot& state, W
   state.verdict.has_flown = in.getBool();
   state.verdict.at_rest = in.getBool();
   state.verdict.hardest_touch = in.get<double>();
+  if (in.atEnd()) return tick;  // of a session from before these were written
+  state.plans = in.get<std::uint32_t>();
+  state.controls = in.get<std::uint32_t>();
+  state.colours = in.get<std::uint32_t>();
+  state.cameras_disagree = in.getBool();
+  state.cold_start = getWord(in, words);
   return tick;
 }
 
@@ -169,6 +175,16 @@ void decodeCameraState(std::string_view payload, CameraSnapshot& camera, Words& 
   bound.position_m = in.get<double>();
   bound.orientation_rad = in.get<double>();
   camera.calibration_bound = bound_known ? std::optional(bound) : std::nullopt;
+  if (in.atEnd()) return;  // of a session from before these were written
+  camera.frozen = in.getBool();
+  camera.lost_share = in.get<double>();
+  camera.noise = in.get<double>();
+  camera.backgrounds = in.get<std::uint32_t>();
+  camera.link = getEnum(in, LinkState::kOpening);
+  camera.returns = in.get<std::uint64_t>();
+  camera.resent_packets = in.get<std::uint64_t>();
+  camera.transfer = in.get<TimeNs>();
+  camera.clock_sigma_s = in.get<double>();
 }
 
 void decodeTrackedPose(std::string_view payload, TrackedState& tracked) {

@@ -176,6 +176,15 @@ void encodeCameraState(CdrWriter& out, TimeNs time, const CameraSnapshot& camera
   out.put(camera.calibration_bound.has_value());
   out.put(bound.position_m);
   out.put(bound.orientation_rad);
+  out.put(camera.frozen);
+  out.put(camera.lost_share);
+  out.put(camera.noise);
+  out.put(camera.backgrounds);
+  out.put(static_cast<std::uint8_t>(camera.link));
+  out.put(camera.returns);
+  out.put(camera.resent_packets);
+  out.put(camera.transfer);
+  out.put(camera.clock_sigma_s);
 }
 
 void encodeCameraInfo(CdrWriter& out, const CameraConfig& camera) {
@@ -313,6 +322,11 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
   out.put(state.verdict.has_flown);
   out.put(state.verdict.at_rest);
   out.put(state.verdict.hardest_touch);
+  out.put(state.plans);
+  out.put(state.controls);
+  out.put(state.colours);
+  out.put(state.cameras_disagree);
+  out.putText(state.cold_start != nullptr ? state.cold_start : "");
 }
 
 namespace {

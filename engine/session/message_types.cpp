@@ -101,7 +101,12 @@ constexpr Definition kDefinitions[] = {
      "bool gust_ordered\n"
      "bool has_truth          # the others are valid; simulated flights\n"
      "bool crashed\nstring crash_reason\nfloat64 crash_time_s\nbool has_flown\nbool at_rest\n"
-     "float64 hardest_touch_m_s\n"},
+     "float64 hardest_touch_m_s\n"
+     "uint32 plans            # changes of the plan so far\n"
+     "uint32 controls         # of gains and trims\n"
+     "uint32 colours          # of the markers' colour\n"
+     "bool cameras_disagree\n"
+     "string cold_start       # what the operator has to do while no camera is calibrated\n"},
     {"helical_msgs/CameraState",
      "std_msgs/Header header\nuint8 status\nstring status_name\nbool hidden\n"
      "string calibration_method  # empty: the pose was given\n"
@@ -109,7 +114,12 @@ constexpr Definition kDefinitions[] = {
      "float64 rate_hz\nint64 latency_ns\nint64 extraction_p50_ns\nint64 extraction_p99_ns\n"
      "int32 centroids\nint32 knocks_found\n"
      "bool bound_known        # the Cramer-Rao bound of its calibration is valid\n"
-     "float64 bound_position_m\nfloat64 bound_orientation_rad\n"},
+     "float64 bound_position_m\nfloat64 bound_orientation_rad\n"
+     "bool frozen             # by the operator: learns no more\n"
+     "float64 lost_share      # of its frames, by the operator\n"
+     "float64 noise           # the operator's: grey levels, px without images\n"
+     "uint32 backgrounds      # taken anew by the operator, so far\n"
+     "uint8 link\nuint64 returns\nuint64 resent_packets\nint64 transfer_ns\nfloat64 clock_sigma_s\n"},
     {"helical_msgs/OperatorOrder",
      "std_msgs/Header header\n"
      "uint64 order            # of what reached the flight thread\n"

@@ -178,7 +178,10 @@ void SessionWriter::writeCamera(const EngineSnapshot& state, std::size_t index) 
   const CameraSnapshot& now = state.cameras[index];
   const bool first = camera.extrinsics_written < 0;
   const bool changed = now.estimate.status != camera.written.estimate.status ||
-                       now.hidden != camera.written.hidden || now.knocks != camera.written.knocks;
+                       now.hidden != camera.written.hidden || now.knocks != camera.written.knocks ||
+                       now.boards != camera.written.boards || now.frozen != camera.written.frozen ||
+                       now.lost_share != camera.written.lost_share || now.noise != camera.written.noise ||
+                       now.backgrounds != camera.written.backgrounds || now.link != camera.written.link;
   if (first || state.time - camera.extrinsics_written >= kRepeat ||
       !sameEstimate(now.estimate, camera.written.estimate)) {
     camera.extrinsics_written = state.time;

@@ -1959,5 +1959,181 @@ m/s</translation>
         <source>The last two cameras disagree: one was moved, which is not known</source>
         <translation>Die letzten zwei Kameras widersprechen sich: eine wurde bewegt, welche ist unbekannt</translation>
     </message>
+    <message>
+        <source>Comparison of %n flight(s)</source>
+        <translation>Vergleich von %n Flügen</translation>
+    </message>
+    <message>
+        <source>Which plots</source>
+        <translation>Welche Diagramme</translation>
+    </message>
+    <message>
+        <source>Save as PDF...</source>
+        <translation>Als PDF speichern...</translation>
+    </message>
+    <message>
+        <source>Plots of the flights</source>
+        <translation>Diagramme der Flüge</translation>
+    </message>
+    <message>
+        <source>Save the comparison</source>
+        <translation>Vergleich speichern</translation>
+    </message>
+    <message>
+        <source>PDF (*.pdf)</source>
+        <translation>PDF (*.pdf)</translation>
+    </message>
+    <message>
+        <source>The flights side by side</source>
+        <translation>Die Flüge nebeneinander</translation>
+    </message>
+    <message>
+        <source>Quantity</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Export %1</source>
+        <translation>%1 exportieren</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>Was</translation>
+    </message>
+    <message>
+        <source>Tables (CSV), one of each stream</source>
+        <translation>Tabellen (CSV), je Datenstrom eine</translation>
+    </message>
+    <message>
+        <source>Figures as pictures (PNG)</source>
+        <translation>Abbildungen als Bilder (PNG)</translation>
+    </message>
+    <message>
+        <source>Figures and a report (PDF)</source>
+        <translation>Abbildungen und ein Bericht (PDF)</translation>
+    </message>
+    <message>
+        <source>Films of the cameras with what was found in them (MP4)</source>
+        <translation>Filme der Kameras mit dem, was darin gefunden wurde (MP4)</translation>
+    </message>
+    <message>
+        <source>The session holds no images of the cameras</source>
+        <translation>Die Aufzeichnung enthält keine Kamerabilder</translation>
+    </message>
+    <message>
+        <source>Film of the 3D view (MP4)</source>
+        <translation>Film der 3D-Ansicht (MP4)</translation>
+    </message>
+    <message>
+        <source>Streams of the tables</source>
+        <translation>Datenströme der Tabellen</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>From</source>
+        <translation>Von</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>Bis</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation>Wählen...</translation>
+    </message>
+    <message>
+        <source>Folder for the files</source>
+        <translation>Ordner für die Dateien</translation>
+    </message>
+    <message>
+        <source>Progress of the export</source>
+        <translation>Fortschritt des Exports</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>Exportieren</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Export session...</source>
+        <translation>Aufzeichnung exportieren...</translation>
+    </message>
+    <message>
+        <source>Compare sessions...</source>
+        <translation>Aufzeichnungen vergleichen...</translation>
+    </message>
+    <message>
+        <source>Export a recorded flight</source>
+        <translation>Einen aufgezeichneten Flug exportieren</translation>
+    </message>
+    <message>
+        <source>Compare recorded flights</source>
+        <translation>Aufgezeichnete Flüge vergleichen</translation>
+    </message>
+    <message>
+        <source>Compare this flight with others</source>
+        <translation>Diesen Flug mit anderen vergleichen</translation>
+    </message>
+    <message>
+        <source>the session holds no picture in this span</source>
+        <translation>die Aufzeichnung enthält in dieser Zeit kein Bild</translation>
+    </message>
+    <message>
+        <source>the 3D view needs OpenGL 3.2</source>
+        <translation>die 3D-Ansicht braucht OpenGL 3.2</translation>
+    </message>
+    <message>
+        <source>The session cannot be exported</source>
+        <translation>Die Aufzeichnung lässt sich nicht exportieren</translation>
+    </message>
+    <message>
+        <source>Compare sessions</source>
+        <translation>Aufzeichnungen vergleichen</translation>
+    </message>
+    <message>
+        <source>Choose two sessions or more.</source>
+        <translation>Bitte zwei Aufzeichnungen oder mehr wählen.</translation>
+    </message>
+    <message>
+        <source>Cancelled</source>
+        <translation>Abgebrochen</translation>
+    </message>
+    <message>
+        <source>3D view</source>
+        <translation>3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>%n file(s) in %1</source>
+        <translation>%n Dateien in %1</translation>
+    </message>
+    <message>
+        <source>Reading %n session(s)</source>
+        <translation>%n Aufzeichnungen werden gelesen</translation>
+    </message>
+    <message>
+        <source>The sessions cannot be compared</source>
+        <translation>Die Aufzeichnungen lassen sich nicht vergleichen</translation>
+    </message>
+    <message>
+        <source>The comparison cannot be saved</source>
+        <translation>Der Vergleich lässt sich nicht speichern</translation>
+    </message>
 </context>
 </TS>

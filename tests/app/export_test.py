@@ -49,7 +49,8 @@ class Export(unittest.TestCase):
 
     def test_figures_and_a_report(self):
         files, _ = self.export("png,pdf", "figures")
-        stems = {"fig06", "fig07", "fig08", "fig09", "fig10", "tracking", "calibration", "sticks", "latency"}
+        stems = {"fig06", "fig07", "fig08", "fig09", "fig10", "tracking", "calibration", "calibration_orientation",
+                 "residuals", "sticks", "latency", "latency_histogram"}
         self.assertEqual(set(files), {f"{stem}.{suffix}" for stem in stems for suffix in ("png", "pdf")} | {"report.pdf"})
         for name, file in files.items():
             content = file.read_bytes()
@@ -61,6 +62,18 @@ class Export(unittest.TestCase):
                 self.assertTrue(content.startswith(b"%PDF-"))
         pages = len(re.findall(rb"/Type /Page\b", files["report.pdf"].read_bytes()))
         self.assertGreaterEqual(pages, 5)
+
+    def test_streams_and_a_span(self):
+        result = run("export", self.file, "--format", "csv", "--streams", "/helicopter/pose,/sticks", "--from", 6, "--to", 8,
+                     "--out", self.place / "span")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        names = {pathlib.Path(line).name for line in result.stdout.splitlines()}
+        self.assertEqual(names, {"helicopter_pose.csv", "sticks.csv", "rig.toml", "plan.toml", "settings.json", "README.md"})
+        for name in ("helicopter_pose.csv", "sticks.csv"):
+            with open(self.place / "span" / name, newline="", encoding="utf-8") as table:
+                times = [float(row["time_s [s]"]) for row in csv.DictReader(table)]
+            self.assertTrue(all(6.0 <= time <= 8.0 for time in times))
+            self.assertEqual(len(times), 121)  # both ends count
 
     def test_a_ten_line_script_plots_the_tables(self):
         tables, _ = self.export("csv", "tables")
@@ -84,6 +97,8 @@ class Export(unittest.TestCase):
         self.assertEqual(run_json("fly", "--no-images", "--duration", 14, "--session", bare)[0], 0)
         for arguments in (("export", bare, "--format", "mp4", "--out", self.place / "no"),
                           ("export", bare, "--format", "xls", "--out", self.place / "no"),
+                          ("export", bare, "--format", "csv", "--streams", "/nothing", "--out", self.place / "no"),
+                          ("export", bare, "--format", "csv", "--from", 5, "--to", 4, "--out", self.place / "no"),
                           ("fly", "--session", self.place / "x.mcap", "--session-images", "gif"),
                           ("fly", "--session", self.place / "x.mcap", "--session-images", "9=jpeg"),
                           ("fly", "--session", self.place / "x.mcap", "--session-images", "jpeg@fast")):

@@ -58,6 +58,10 @@ void expectSame(const EngineSnapshot& a, const EngineSnapshot& b) {
   EXPECT_NEAR(a.set_point.yaw, b.set_point.yaw, 1e-12);
   EXPECT_EQ(a.has_truth, b.has_truth);
   EXPECT_EQ(a.truth.world_from_body.translation, b.truth.world_from_body.translation);
+  EXPECT_EQ(a.plans, b.plans);
+  EXPECT_EQ(a.colours, b.colours);
+  EXPECT_EQ(a.cameras_disagree, b.cameras_disagree);
+  EXPECT_STREQ(a.cold_start == nullptr ? "" : a.cold_start, b.cold_start == nullptr ? "" : b.cold_start);
   EXPECT_STREQ(a.obstacle == nullptr ? "" : a.obstacle, b.obstacle == nullptr ? "" : b.obstacle);
   if (a.pose_known) {
     EXPECT_EQ(a.tracked.state.world_from_body.translation, b.tracked.state.world_from_body.translation);

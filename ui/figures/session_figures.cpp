@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/geometry/rotation.h"
 #include "ui/figures/fitted_axis.h"
@@ -112,7 +113,10 @@ Figure featuresFigure(const SessionSummary& session) {
     raster.braces.push_back({cameraName(session, static_cast<std::size_t>(camera)), first - kHalfRow,
                              first + trace.marker_count - 1 + kHalfRow});
   }
-  return {QStringLiteral("fig08"), QStringLiteral("The label of the selected image features"), {}, {raster}};
+  return {QStringLiteral("fig08"),
+          QStringLiteral("The label of the selected image features (the paper's figures 8 and 11)"),
+          {},
+          {raster}};
 }
 
 /// One panel for each camera whose pose is learnt.
@@ -155,6 +159,89 @@ Figure convergenceFigure(const SessionSummary& session) {
                millimetres(kTracked, [](const Camera& camera) { return camera.position_sigma; }),
                millimetres(kBound, [](const Camera& camera) { return camera.position_bound; })}));
   }
+  return figure;
+}
+
+const Stroke& cameraStroke(std::size_t camera) {
+  static const Stroke kStrokes[] = {Stroke{kExperimentB}, Stroke{kExperimentA}, Stroke{kGreen}, Stroke{kPurple},
+                                    Stroke{kExperimentB, Qt::DashLine}, Stroke{kExperimentA, Qt::DashLine},
+                                    Stroke{kGreen, Qt::DashLine}, Stroke{kPurple, Qt::DashLine}};
+  return kStrokes[camera % std::size(kStrokes)];
+}
+
+std::vector<std::vector<LegendEntry>> cameraKeys(const SessionSummary& session) {
+  std::vector<LegendEntry> keys;
+  for (std::size_t c = 0; c < session.settings.rig.cameras.size(); ++c)
+    keys.push_back({cameraName(session, c), LegendKeyKind::kLine, cameraStroke(c)});
+  return {keys};
+}
+
+/// One value of every camera in one panel.
+template <typename Value>
+Figure camerasFigure(const SessionSummary& session, const char* stem, const QString& title, const QString& unit,
+                     double smallest, double limit, const Value& value) {
+  std::vector<Curve> curves;
+  for (std::size_t c = 0; c < session.settings.rig.cameras.size(); ++c)
+    curves.push_back(
+        curve(session, cameraStroke(c), [&](const SessionSample& sample) { return value(sample.cameras[c]); }));
+  return {QString::fromLatin1(stem), title, cameraKeys(session),
+          {panel(session, unit, smallest, limit, std::move(curves))}};
+}
+
+Figure orientationFigure(const SessionSummary& session) {
+  Figure figure{QStringLiteral("calibration_orientation"),
+                QStringLiteral("Calibration: orientation error and sigma"),
+                {{{QStringLiteral("error"), LegendKeyKind::kLine, kTrue},
+                  {QStringLiteral("sigma"), LegendKeyKind::kLine, kTracked}}},
+                {}};
+  for (std::size_t c = 0; c < session.settings.rig.cameras.size(); ++c) {
+    if (session.methods[c].empty()) continue;
+    figure.panels.push_back(panel(
+        session, cameraName(session, c) + QStringLiteral(" [\u00b0]"), 0.5, 5.0,
+        {curve(session, kTrue,
+               [c](const SessionSample& s) { return toDegrees(s.cameras[c].rotation_error.norm()); }),
+         curve(session, kTracked,
+               [c](const SessionSample& s) { return toDegrees(s.cameras[c].orientation_sigma); })}));
+  }
+  return figure;
+}
+
+/// How often a camera's frames were so old when they were used [%].
+Curve latencyShares(const SessionSummary& session, std::size_t camera, double longest_ms) {
+  constexpr std::size_t kBins = 80;
+  std::vector<double> bins(kBins, 0.0);
+  double count = 0.0;
+  for (const SessionSample& sample : session.samples) {
+    const double latency = sample.cameras[camera].latency_ms;
+    if (!(latency >= 0.0)) continue;
+    ++bins[std::min(kBins - 1, static_cast<std::size_t>(latency / longest_ms * kBins))];
+    ++count;
+  }
+  Curve steps{cameraStroke(camera), {}};
+  for (std::size_t i = 0; count > 0.0 && i < kBins; ++i)
+    for (const std::size_t edge : {i, i + 1})
+      steps.points.emplace_back(longest_ms * static_cast<double>(edge) / kBins, 100.0 * bins[i] / count);
+  return steps;
+}
+
+Figure histogramFigure(const SessionSummary& session) {
+  std::vector<double> latencies;
+  for (const SessionSample& sample : session.samples)
+    for (const Camera& camera : sample.cameras)
+      if (camera.latency_ms >= 0.0) latencies.push_back(camera.latency_ms);
+  Figure figure{QStringLiteral("latency_histogram"),
+                QStringLiteral("Age of the frames when they were used"),
+                cameraKeys(session),
+                {}};
+  if (latencies.empty()) return figure;
+  std::sort(latencies.begin(), latencies.end());
+  const double longest = 1.2 * latencies[static_cast<std::size_t>(0.995 * static_cast<double>(latencies.size() - 1))];
+  Panel shares;
+  for (std::size_t c = 0; c < session.settings.rig.cameras.size(); ++c)
+    shares.curves.push_back(latencyShares(session, c, std::max(1.0, longest)));
+  shares.x = fittedAxis(QStringLiteral("mid-exposure to use [ms]"), 0.0, std::max(1.0, longest), 0.0);
+  shares.y = fittedAxis(QStringLiteral("frames [%]"), shares.curves, 1.0, 100.0);
+  figure.panels.push_back(std::move(shares));
   return figure;
 }
 
@@ -222,8 +309,15 @@ std::vector<Figure> sessionFigures(const SessionSummary& session) {
           [](const Camera& camera) -> Eigen::Vector3d { return toDegrees(1.0) * camera.rotation_error; }),
       trackingFigure(session),
       convergenceFigure(session),
+      orientationFigure(session),
+      camerasFigure(session, "residuals", QStringLiteral("Reprojection residual"), QStringLiteral("residual [px]"),
+                    0.2, 5.0, [](const Camera& camera) { return camera.residual_px; }),
+      camerasFigure(session, "sample_size", QStringLiteral("Effective sample size of the calibrators"),
+                    QStringLiteral("hypotheses"), 10.0, kWithoutLimit,
+                    [](const Camera& camera) { return camera.effective_sample_size; }),
       sticksFigure(session),
-      latencyFigure(session)};
+      latencyFigure(session),
+      histogramFigure(session)};
   std::erase_if(figures, [](const Figure& figure) { return !hasData(figure); });
   return figures;
 }

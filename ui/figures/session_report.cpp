@@ -7,6 +7,7 @@
 #include <QTextDocument>
 
 #include "engine/base/error.h"
+#include "ui/figures/comparison_figures.h"
 #include "ui/figures/figure_drawing.h"
 #include "ui/figures/session_figures.h"
 #include "ui/figures/session_words.h"
@@ -78,15 +79,13 @@ void drawFigures(QPainter& painter, QPdfWriter& writer, const std::vector<Figure
   }
 }
 
-}  // namespace
-
-std::filesystem::path writeSessionReport(const SessionSummary& session, const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "report.pdf";
+void writeReport(const std::filesystem::path& path, const QString& title, const QString& words,
+                 const std::vector<Figure>& figures) {
   QSaveFile file(QString::fromStdString(path.string()));
   if (!file.open(QIODevice::WriteOnly)) cannotWrite(path, file.errorString());
   {
     QPdfWriter writer(&file);
-    writer.setTitle(QStringLiteral("Flight report"));
+    writer.setTitle(title);
     writer.setCreator(QStringLiteral("Helical"));
     writer.setResolution(kUnitsPerInch);
     writer.setPageSize(QPageSize(kPage, QPageSize::Millimeter, {}, QPageSize::ExactMatch));
@@ -94,11 +93,25 @@ std::filesystem::path writeSessionReport(const SessionSummary& session, const st
     QPainter painter;
     if (!painter.begin(&writer)) cannotWrite(path, file.errorString());
     painter.scale(kUnitsPerMillimetre, kUnitsPerMillimetre);
-    drawText(painter, writer, sessionInWords(session));
-    drawFigures(painter, writer, sessionFigures(session));
+    drawText(painter, writer, words);
+    drawFigures(painter, writer, figures);
   }
   if (!file.commit()) cannotWrite(path, file.errorString());
+}
+
+}  // namespace
+
+std::filesystem::path writeSessionReport(const SessionSummary& session, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "report.pdf";
+  writeReport(path, QStringLiteral("Flight report"), sessionInWords(session), sessionFigures(session));
   return path;
+}
+
+std::filesystem::path writeComparisonReport(const std::vector<SessionSummary>& sessions,
+                                            const std::filesystem::path& file) {
+  writeReport(file, QStringLiteral("Comparison of flights"), comparisonInWords(sessions),
+              comparisonFigures(sessions));
+  return file;
 }
 
 }  // namespace helical::figures

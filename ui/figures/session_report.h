@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "engine/session/session_summary.h"
 
@@ -11,5 +12,9 @@ namespace helical::figures {
 /// appears whole or not at all. Throws `Error` with the file and a cure. Needs a QGuiApplication; one thread
 /// at a time.
 std::filesystem::path writeSessionReport(const SessionSummary& session, const std::filesystem::path& folder);
+
+/// Likewise one about several flights: the table that tells them apart, then their figures over each other.
+std::filesystem::path writeComparisonReport(const std::vector<SessionSummary>& sessions,
+                                            const std::filesystem::path& file);
 
 }  // namespace helical::figures

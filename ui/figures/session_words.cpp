@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/geometry/rotation.h"
+#include "engine/session/session_comparison.h"
 
 namespace helical::figures {
 namespace {
@@ -174,6 +175,25 @@ QString sessionInWords(const SessionSummary& session) {
   return QString::fromLatin1(kHead) + QStringLiteral("<h1>Flight report: ") + escaped(name) +
          QStringLiteral("</h1>") + setUp(session) + conditions(session) + errors(session) + cameras(session) +
          events(session) + QStringLiteral("</body></html>");
+}
+
+QString comparisonInWords(const std::vector<SessionSummary>& sessions) {
+  Table files(QStringLiteral("Flights"));
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    files.row({escaped(sessionLetter(i)), escaped(sessions[i].file) +
+                                              (sessions[i].complete ? QString() : QStringLiteral(" (cut off)"))});
+  Table table(QStringLiteral("Side by side"));
+  QStringList head{QString()};
+  for (std::size_t i = 0; i < sessions.size(); ++i) head << QString::fromStdString(sessionLetter(i));
+  table.row(head, "th");
+  for (const ComparisonRow& row : compareSessions(sessions)) {
+    QStringList cells{escaped(row.unit.empty() ? row.name : row.name + " [" + row.unit + "]")};
+    for (const double value : row.values) cells << number(value, row.decimals, "");
+    for (const auto& word : row.words) cells << escaped(word);
+    table.row(cells);
+  }
+  return QString::fromLatin1(kHead) + QStringLiteral("<h1>Comparison of flights</h1>") + files.html() +
+         table.html() + QStringLiteral("</body></html>");
 }
 
 }  // namespace helical::figures

@@ -44,6 +44,7 @@ struct FlyArguments {
   std::string calibration, save_calibration;  ///< files
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
+  std::vector<double> refine_at_s;
   std::vector<std::string> uncalibrated;
   std::string tracker;
   std::string calibrator;
@@ -153,6 +154,17 @@ bool recordingsFailed(const EngineSnapshot& last) {
                      [](const CameraSnapshot& camera) { return camera.link == LinkState::kStalled; });
 }
 
+std::vector<TimedOrder> refinements(const FlyArguments& arguments) {
+  std::vector<TimedOrder> orders;
+  for (const double at_s : arguments.refine_at_s) {
+    orders.emplace_back().at_s = at_s;
+    orders.back().order.kind = CalibrationOrderKind::kRefine;
+  }
+  std::sort(orders.begin(), orders.end(),
+            [](const TimedOrder& a, const TimedOrder& b) { return a.at_s < b.at_s; });
+  return orders;
+}
+
 int fly(const FlyArguments& arguments) {
   const RigConfig rig = configuredRig(arguments);
   const FlightPlan plan = configuredPlan(arguments);
@@ -166,7 +178,8 @@ int fly(const FlyArguments& arguments) {
       if (now.tick % kProgressTicks == 0)
         progress.update(toSeconds(now.time) / planned_s, toString(now.phase));
     };
-    run = runFlight(rig, plan, planned_s + kTimeToSpareS, arguments.realtime, show, recorder.get());
+    const std::vector<TimedOrder> orders = refinements(arguments);
+    run = runFlight(rig, plan, planned_s + kTimeToSpareS, arguments.realtime, show, recorder.get(), orders);
   }
   if (recorder) finishRecord(*recorder);
   if (!arguments.save_calibration.empty())
@@ -216,6 +229,9 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
                    "DEG,M: how far off their first guess is (default 15,0.4)")
       ->delimiter(',')
       ->expected(2)
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--refine", arguments->refine_at_s,
+                      "T: solve for all cameras together from what they saw up to T [s]")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--calibration", arguments->calibration,
                       "Cameras stand where this file says, which --save-calibration wrote");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/calibration/admission.h"
+#include "engine/calibration/lasting_inflation.h"
 #include "engine/calibration/thinned_store.h"
 
 namespace helical {
@@ -256,18 +257,6 @@ void ColdStart::drop(std::size_t camera) {
   if (given_[camera].status != CameraStatus::kCalibrated) answer_[camera] = {};
 }
 
-/// By how much offsets that stay from moment to moment widen the covariance.
-double ColdStart::lastingInflation() const {
-  const int waving = count_ - pad_count_;
-  if (waving < 2) return 1.0;
-  const double span_s = toSeconds(moments_[static_cast<std::size_t>(count_ - 1)].time -
-                                  moments_[static_cast<std::size_t>(pad_count_)].time);
-  const double correlation = std::exp(-span_s / (waving - 1) / options_.lasting_time_s);
-  const double variance = moments_[static_cast<std::size_t>(pad_count_)].views[0].variance;
-  return 1.0 + options_.lasting_sigma_px * options_.lasting_sigma_px / std::max(variance, 1e-4) *
-                   (1.0 + correlation) / (1.0 - correlation);
-}
-
 Eigen::Vector3d ColdStart::whereSeen(std::size_t camera) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
@@ -293,7 +282,9 @@ void ColdStart::judge() {
     return;
   }
   int good = 0;
-  const double inflation = lastingInflation();
+  const double inflation = lastingInflation(
+      std::span(moments_).subspan(static_cast<std::size_t>(pad_count_), static_cast<std::size_t>(count_ - pad_count_)),
+      options_.lasting_sigma_px, options_.lasting_time_s);
   for (std::size_t c = 0; c < models_.size(); ++c) {
     const BundleCamera& camera = bundle_.cameras()[c];
     if (!camera.used) continue;

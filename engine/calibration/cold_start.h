@@ -69,7 +69,6 @@ class ColdStart {
   bool placeMoments();
   void judge();
   Eigen::Vector3d whereSeen(std::size_t camera) const;
-  double lastingInflation() const;
 
   std::vector<CameraModel> models_;
   MarkerLayout markers_;

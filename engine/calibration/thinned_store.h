@@ -47,6 +47,12 @@ class ThinnedStore {
     gap_.push_back(order_.size() > 1 ? distance(order_.size() - 2, order_.size() - 1) : 0.0);
   }
 
+  /// What is done to them must not move their poses.
+  template <typename Change>
+  void forEach(const Change& change) {
+    for (Frame& frame : slots_) change(frame);
+  }
+
   /// In the order of time; valid until the next call.
   std::span<const Frame* const> frames() const { return order_; }
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/clock.h"
 #include "engine/base/error.h"
+#include "engine/base/log.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/lock_step.h"
 #include "engine/pipeline/rig_devices.h"
@@ -28,8 +29,14 @@ constexpr double kPatienceS = 20.0;  // for the pre-arm checks, after which the 
 class Operator {
  public:
   /// `carried_s`: for so long it is carried about first. `looks_on`: the rig's cameras are recordings.
-  Operator(double limit_s, double carried_s, bool looks_on)
-      : end_(limit_s), carried_s_(carried_s), looks_on_(looks_on) {}
+  Operator(double limit_s, double carried_s, bool looks_on, std::span<const TimedOrder> orders)
+      : end_(limit_s), carried_s_(carried_s), looks_on_(looks_on), orders_(orders) {}
+
+  /// The next order that is due, once; null: none.
+  const CalibrationOrder* due(const EngineSnapshot& now) {
+    if (given_ == orders_.size() || toSeconds(now.time) < orders_[given_].at_s) return nullptr;
+    return &orders_[given_++].order;
+  }
 
   bool wantsTakeOff(const EngineSnapshot& now) {
     if (ordered_ || !now.pose_known || now.failing_checks != 0) return false;
@@ -53,8 +60,23 @@ class Operator {
   FlightEnd end_;
   double carried_s_;
   bool looks_on_;
+  std::span<const TimedOrder> orders_;
+  std::size_t given_ = 0;
   bool ordered_ = false;
 };
+
+void giveOrders(LockStep& flight, Operator& pilot, const EngineSnapshot& now) {
+  while (const CalibrationOrder* order = pilot.due(now))
+    if (const char* refusal = flight.orderCalibration(*order))
+      log(LogLevel::kWarning, std::string("no ") + toString(order->kind) + ": " + refusal);
+}
+
+/// The engine's events tell what became of them.
+void giveOrders(Engine& engine, Operator& pilot, const EngineSnapshot& now) {
+  while (const CalibrationOrder* order = pilot.due(now))
+    if (!engine.orderCalibration(*order))
+      log(LogLevel::kWarning, std::string("no ") + toString(order->kind) + ": the engine is still busy");
+}
 
 void fly(LockStep& flight, Operator& pilot, FlightRun& run, const TickListener& listener) {
   OperatorCommands commands;
@@ -63,6 +85,7 @@ void fly(LockStep& flight, Operator& pilot, FlightRun& run, const TickListener& 
     run.score.add(run.last);
     run.links.add(run.last);
     commands.arm = commands.take_off = pilot.wantsTakeOff(run.last);
+    giveOrders(flight, pilot, run.last);
     listener(run.last);
   } while (!pilot.isOver(run.last));
 }
@@ -78,6 +101,7 @@ void fly(Engine& engine, Operator& pilot, FlightRun& run, const TickListener& li
         engine.arm();
         engine.takeOff();
       }
+      giveOrders(engine, pilot, run.last);
       listener(run.last);
       over = pilot.isOver(run.last);
     }
@@ -120,9 +144,9 @@ bool FlightEnd::isOver(const EngineSnapshot& now) {
 }
 
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
-                    const TickListener& listener, FlightTap* tap) {
+                    const TickListener& listener, FlightTap* tap, std::span<const TimedOrder> orders) {
   FlightRun run;
-  Operator pilot(limit_s, plan.carried_s, isOfRecordings(rig));
+  Operator pilot(limit_s, plan.carried_s, isOfRecordings(rig), orders);
   if (realtime) {
     Engine engine(rig, plan, tap);
     const MonotonicClock stopwatch;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/config/rig_config.h"
 #include "engine/experiments/link_score.h"
 #include "engine/flight/flight_plan.h"
+#include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/flight_score.h"
 #include "engine/pipeline/flight_tap.h"
 #include "engine/pipeline/snapshot.h"
@@ -20,6 +22,12 @@ struct FlightRun {
   EngineSnapshot last;  ///< state at the end
   double wall_s = 0.0;
   std::string session;  ///< the file that it was recorded to; empty: none
+};
+
+/// What the operator of a headless flight orders at a time.
+struct TimedOrder {
+  double at_s = 0.0;
+  CalibrationOrder order;
 };
 
 /// Called with the state after every control tick.
@@ -51,9 +59,10 @@ class FlightEnd {
   TimeNs ended_ = -1;
 };
 
-/// Flies the plan from take-off to rest (or crash, or `limit_s`; or to the ends of a rig's recordings), headless: in lock step, or with `realtime`
-/// in the engine's own threads at the pace of the wall clock. `tap` sees the flight on its thread.
+/// Flies the plan from take-off to rest (or crash, or `limit_s`; or to the ends of a rig's recordings), headless: in
+/// lock step, or with `realtime` in the engine's own threads at the pace of the wall clock. `tap` sees the flight on
+/// its thread. `orders` in the order of time; the log tells of refused ones.
 FlightRun runFlight(const RigConfig& rig, const FlightPlan& plan, double limit_s, bool realtime,
-                    const TickListener& listener, FlightTap* tap = nullptr);
+                    const TickListener& listener, FlightTap* tap = nullptr, std::span<const TimedOrder> orders = {});
 
 }  // namespace helical

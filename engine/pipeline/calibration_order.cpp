@@ -14,6 +14,8 @@ const char* toString(CalibrationOrderKind kind) {
       return "trust-rig";
     case CalibrationOrderKind::kAdopt:
       return "adopt";
+    case CalibrationOrderKind::kRefine:
+      return "refine";
   }
   return "";
 }

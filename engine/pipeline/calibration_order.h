@@ -15,11 +15,12 @@ enum class CalibrationOrderKind : std::uint8_t {
   kAccept,    ///< comes into the control set with what it knows now, whatever the rule of admission says
   kTrustRig,  ///< stands where the rig file says
   kAdopt,     ///< stands where the order says, from a calibration that was saved
+  kRefine,    ///< all cameras, whichever is named, are solved for together: see RigRefinement
 };
 
-inline constexpr std::array<CalibrationOrderKind, 5> kCalibrationOrderKinds{
+inline constexpr std::array<CalibrationOrderKind, 6> kCalibrationOrderKinds{
     CalibrationOrderKind::kFreeze, CalibrationOrderKind::kResume, CalibrationOrderKind::kAccept,
-    CalibrationOrderKind::kTrustRig, CalibrationOrderKind::kAdopt};
+    CalibrationOrderKind::kTrustRig, CalibrationOrderKind::kAdopt, CalibrationOrderKind::kRefine};
 
 /// A plain value on its way to the flight thread.
 struct CalibrationOrder {

@@ -40,6 +40,7 @@ ControlSet::ControlSet(const RigConfig& rig)
     cold_start_ = std::make_unique<ColdStart>(models_, markers_, rig.helicopter.standing_height, estimates());
     for (std::size_t i = 0; i < cameras_; ++i) found_by_cold_start_[i] = learning_[i];
   }
+  refinement_ = std::make_unique<RigRefinement>(models_, markers_);
   // A rank for each camera that may be knocked, one after the other.
   for (std::size_t r = 0; r <= cameras_ + 1; ++r)
     teachers_.push_back(
@@ -64,6 +65,7 @@ void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   if (!calibration) return;
   calibrations_[index].swap(calibration);
   if (!learning_[index]) return;
+  refining_[index] = false;
   estimates_[index] = calibrations_[index]->estimate();
   bounds_[index].restart();
   refreshUsable();
@@ -93,12 +95,15 @@ const char* ControlSet::obey(const CalibrationOrder& order) {
       found_by_cold_start_[index] = false;
       place(index, {order.camera_from_world, order.covariance, CameraStatus::kCalibrated});
       return nullptr;
+    case CalibrationOrderKind::kRefine:
+      return startRefinement();
   }
   return nullptr;
 }
 
 void ControlSet::place(std::size_t camera, const CameraEstimate& estimate) {
   estimates_[camera] = estimate;
+  refining_[camera] = refined_[camera] = false;
   learning_[camera] = false;
   rank_[camera] = 0;
   detectors_[camera] = KnockDetector();
@@ -114,6 +119,7 @@ const CameraCalibration* ControlSet::calibration(CameraId camera) const {
 const char* ControlSet::method(CameraId camera) const {
   const std::size_t index = indexOf(camera);
   if (learning_[index]) return calibrations_[index]->calibrator().name();
+  if (refined_[index]) return "refined";
   return found_by_cold_start_[index] ? "cold-start" : nullptr;
 }
 
@@ -149,8 +155,11 @@ void ControlSet::learn(const Observation& observation, const Tracker& tracker, b
   const bool judges = airborne || !cold_start_;
   if (const int witnesses = judges && usable_[index] ? witnessesOfKnock(observation, tracker) : 0; witnesses > 0)
     takeOut(index, witnesses, tracker);
+  if (judges && usable_[index]) watchSteps(observation, tracker);
   teachOthers(observation, airborne);
   if (learning_[index] && !hidden_[index] && !frozen_[index]) teach(observation, tracker, airborne);
+  if (!hidden_[index]) showToRefinement(observation, tracker);
+  if (refinement_->work()) takeRefinement(tracker.predict(observation.exposure, airborne).state.world_from_body.translation);
   refreshUsable();
 }
 
@@ -175,7 +184,9 @@ void ControlSet::takeOut(std::size_t camera, int witnesses, const Tracker& track
     ++knocks_found_[camera];
   else
     disputed_ = static_cast<int>(camera);
-  found_by_cold_start_[camera] = false;
+  found_by_cold_start_[camera] = refined_[camera] = refining_[camera] = false;
+  refinement_->forget(cameraId(static_cast<int>(camera)));
+  steps_.forget(cameraId(static_cast<int>(camera)));
   int highest = 0;
   for (std::size_t i = 0; i < cameras_; ++i)
     if (i != camera) highest = std::max(highest, rank_[i]);

@@ -9,6 +9,8 @@
 #include "engine/calibration/cold_start.h"
 #include "engine/calibration/knock_detector.h"
 #include "engine/calibration/live_bound.h"
+#include "engine/calibration/rig_refinement.h"
+#include "engine/calibration/step_detector.h"
 #include "engine/config/rig_config.h"
 #include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/camera_calibration.h"
@@ -20,7 +22,8 @@ namespace helical {
 /// teaches those whose pose is not known yet, and takes out those that were knocked, whether their pose was
 /// given or learnt, to teach them anew from where they stood. Of two that disagree nobody can tell which one was
 /// moved, and none is named; but flying on with both crashes, so that the one that jumped away from the pose
-/// predicted from before is set aside until the operator decides.
+/// predicted from before is set aside until the operator decides. Knocks too small to throw a ball out of its gate
+/// are found by StepDetector where three cameras are in control.
 ///
 /// Who teaches whom has no circles. Cameras with a given pose have rank 0, those whose pose has to be found rank
 /// 1, and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of lower rank
@@ -71,6 +74,8 @@ class ControlSet {
   void place(std::size_t camera, const CameraEstimate& estimate);
   /// How many cameras bear witness that this one was knocked; 0: it was not.
   int witnessesOfKnock(const Observation& observation, const Tracker& tracker);
+  /// Looks for small knocks, of this camera or of another one.
+  void watchSteps(const Observation& observation, const Tracker& tracker);
   void takeOut(std::size_t camera, int witnesses, const Tracker& tracker);
   /// Ranks without gaps, and the teachers with them.
   void closeRanks();
@@ -79,6 +84,14 @@ class ControlSet {
   void teach(const Observation& observation, const Tracker& tracker, bool airborne);
   void addToBound(const Observation& observation, const Tracker& tracker,
                   const RigidTransform& world_from_body);
+
+  /// The balls in the newest frame, named by the tracker for a camera in control, by its calibrator for a learning
+  /// one. `outside_gate`: those, too, that do not lie where the pose says.
+  NamedBalls namedBalls(const Observation& observation, const Tracker& tracker, bool outside_gate) const;
+  /// Has the refinement see the balls that this camera and the tracker agree on.
+  void showToRefinement(const Observation& observation, const Tracker& tracker);
+  const char* startRefinement();
+  void takeRefinement(const Eigen::Vector3d& helicopter_in_world);
 
   std::size_t cameras_;
   std::vector<CameraModel> models_;
@@ -92,12 +105,16 @@ class ControlSet {
   std::array<std::optional<CameraEstimate>, kMaxCameras> given_;  ///< by the rig file
   std::array<int, kMaxCameras> rank_{};
   std::array<KnockDetector, kMaxCameras> detectors_;
+  StepDetector steps_;
   std::array<int, kMaxCameras> knocks_found_{};
   int disputed_ = -1;  ///< the camera that was set aside when two disagreed
   std::array<std::unique_ptr<CameraCalibration>, kMaxCameras> calibrations_;
   std::array<LiveBound, kMaxCameras> bounds_;
   std::unique_ptr<ColdStart> cold_start_;        ///< if fewer than two cameras were given
   std::array<bool, kMaxCameras> found_by_cold_start_{};  ///< or are to be
+  std::unique_ptr<RigRefinement> refinement_;
+  std::array<bool, kMaxCameras> refining_{};  ///< takes part, and nothing else happened to it since
+  std::array<bool, kMaxCameras> refined_{};   ///< stands where the refinement found it
   std::vector<std::unique_ptr<Tracker>> teachers_;  ///< [r] sees with cameras of rank below r alone
 };
 

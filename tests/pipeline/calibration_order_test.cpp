@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
 #include "engine/base/error.h"
+#include "engine/geometry/rotation.h"
 #include "engine/pipeline/calibration_record.h"
 #include "engine/pipeline/flight_tap.h"
 #include "tests/pipeline/flight_fixture.h"
@@ -109,6 +114,59 @@ TEST(CalibrationOrder, WhatOneFlightLearntAnotherOneAdopts) {
   EXPECT_EQ(second.camera(2).estimate.camera_from_world.translation,
             saved.cameras[2].camera_from_world.translation);
   EXPECT_EQ(second.camera(2).estimate.covariance, saved.cameras[2].covariance);
+}
+
+TEST(CalibrationOrder, ARefinementNeedsFramesAndSomethingToRefine) {
+  Flight learner(test::shippedRig("paper", 8)), known(test::shippedRig("calibrated", 8));
+  learner.run(1);
+  EXPECT_NE(learner.order(CalibrationOrderKind::kRefine, 0), nullptr);
+  known.run(8 * kSecond);
+  EXPECT_STREQ(known.order(CalibrationOrderKind::kRefine, 0), "every camera's pose is given exactly, or it saw too little");
+}
+
+TEST(CalibrationOrder, ARefinedCameraStandsWhereAllOfThemTogetherSay) {
+  double before_m = 0.0, after_m = 0.0;
+  int refined = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    RigConfig rig = test::shippedRig("eight-uncalibrated", seed);
+    for (std::size_t c = 0; c < 2; ++c) rig.cameras[c].camera_from_world = rig.simulation.true_camera_from_world[c];
+    Flight flight(rig);
+    flight.run(14 * kSecond);
+    const RigidTransform given = flight.camera(0).estimate.camera_from_world;
+    const auto errors = [&] {
+      double sum = 0.0;
+      for (std::size_t c = 2; c < 8; ++c)
+        sum += std::pow(cameraError(flight.camera(c).estimate.camera_from_world,
+                                    flight.camera(c).true_camera_from_world).position, 2);
+      return sum;
+    };
+    before_m += errors();
+    ASSERT_EQ(flight.order(CalibrationOrderKind::kRefine, 0), nullptr);
+    EXPECT_NE(flight.order(CalibrationOrderKind::kRefine, 0), nullptr) << "one at a time";
+    flight.run(8 * kSecond);
+    after_m += errors();
+    EXPECT_EQ(flight.camera(0).estimate.camera_from_world.translation, given.translation);
+    for (std::size_t c = 2; c < 8; ++c) {
+      // One that knows clearly more by itself goes on by itself.
+      refined += std::string_view(flight.camera(c).calibration_method) == "refined";
+      EXPECT_EQ(flight.camera(c).estimate.status, CameraStatus::kCalibrated);
+    }
+  }
+  EXPECT_GE(refined, 16);
+  std::printf("eight cameras: %.2f mm before the refinement, %.2f mm after it\n",
+              1e3 * std::sqrt(before_m / 24.0), 1e3 * std::sqrt(after_m / 24.0));
+  EXPECT_LT(after_m, before_m);
+}
+
+TEST(CalibrationOrder, ACameraThatIsKnockedEndsTheRefinement) {
+  RigConfig rig = test::shippedRig("paper", 9);
+  rig.simulation.bumps = {{cameraId(0), 14.1, toRadians(5.0), 0.05}};
+  Flight flight(rig);
+  flight.run(14 * kSecond);
+  ASSERT_EQ(flight.order(CalibrationOrderKind::kRefine, 0), nullptr);
+  flight.run(6 * kSecond);
+  EXPECT_EQ(flight.camera(0).knocks_found, 1);
+  EXPECT_STREQ(flight.camera(2).calibration_method, "joint");
 }
 
 TEST(CalibrationOrder, ACalibrationOfAnotherRigIsRefused) {

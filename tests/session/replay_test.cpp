@@ -107,6 +107,10 @@ TEST(Replay, WhatTheOperatorDecidedAboutCalibrationsIsDecidedAgain) {
         order.covariance = 1e-5 * Matrix6d::Identity();
         flight.orderCalibration(order);
       }
+      if (i == 600) {
+        order.kind = CalibrationOrderKind::kRefine;
+        EXPECT_EQ(flight.orderCalibration(order), nullptr);
+      }
       flight.tick(commands);
     }
   }

@@ -1,0 +1,98 @@
+// What cameras and tracker together say of a frame, for those who look at several cameras at once: the joint
+// refinement, and the search for small knocks.
+
+#include "engine/calibration/admission.h"
+#include "engine/pipeline/control_set.h"
+
+namespace helical {
+namespace {
+
+constexpr int kWitnessesOfStep = 2;  // at least: the detector needs three cameras
+// Nearer to the pad's surface it may be jolted by the pad: contact is not smooth.
+constexpr double kContactHeightM = 0.2;
+// A refinement was asked for: it stands unless it clearly knows less than the camera by itself.
+constexpr double kWorseThanAlone = 1.25;
+
+}  // namespace
+
+NamedBalls ControlSet::namedBalls(const Observation& observation, const Tracker& tracker, bool outside_gate) const {
+  const std::size_t index = indexOf(observation.camera);
+  NamedBalls balls;
+  balls.exposure = observation.exposure;
+  const auto add = [&](int marker, const Eigen::Vector2d& pixel) {
+    balls.seen.set(static_cast<std::size_t>(marker));
+    balls.pixels[static_cast<std::size_t>(marker)] = pixel.cast<float>();
+  };
+  if (usable_[index]) {
+    const CameraTrack& track = tracker.track(observation.camera);
+    if (track.exposure != observation.exposure) return balls;
+    for (int m = 0; m < markers_.count(); ++m)
+      if (const MarkerTrack& marker = track.markers[static_cast<std::size_t>(m)];
+          marker.agrees || (outside_gate && marker.observed))
+        add(m, marker.pixel);
+  } else if (learning_[index] && calibrations_[index]->calibrator().knowsItsPlace()) {
+    for (const LabelledPixel& named : calibrations_[index]->calibrator().named())
+      add(named.marker.index(), named.pixel);
+  }
+  if (observation.count > 0)
+    balls.variance = static_cast<float>(0.5 * observation.centroids[0].covariance.trace());
+  return balls;
+}
+
+void ControlSet::watchSteps(const Observation& observation, const Tracker& tracker) {
+  const std::size_t index = indexOf(observation.camera);
+  const CameraTrack& track = tracker.track(observation.camera);
+  if (!tracker.acquired() || track.exposure != observation.exposure) return;
+  const RigidTransform& camera_from_world = estimates_[index].camera_from_world;
+  const Eigen::Vector3d place =
+      tracker.predict(observation.exposure, true).state.world_from_body.translation;
+  if (place.z() < kContactHeightM) return;
+  Eigen::Matrix<double, 2, 3> d_point;
+  if (!models_[index].project(camera_from_world * place, &d_point)) return;
+  // What lies outside the gate, too: a knock throws it there.
+  const NamedBalls balls = namedBalls(observation, tracker, true);
+  const int moved = steps_.add(observation.camera, balls, d_point * camera_from_world.rotation.toRotationMatrix());
+  if (moved >= 0 && usable_[static_cast<std::size_t>(moved)])
+    takeOut(static_cast<std::size_t>(moved), kWitnessesOfStep, tracker);
+}
+
+void ControlSet::showToRefinement(const Observation& observation, const Tracker& tracker) {
+  const NamedBalls balls = namedBalls(observation, tracker, false);
+  if (balls.seen.none() || !tracker.acquired()) return;
+  refinement_->see(observation.camera, balls, tracker.predict(observation.exposure, true).state.world_from_body);
+}
+
+const char* ControlSet::startRefinement() {
+  std::array<RigRefinement::Part, kMaxCameras> parts;
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    RigRefinement::Part& part = parts[i];
+    part.estimate = estimates_[i];
+    part.holds = estimates_[i].status == CameraStatus::kCalibrated && !learning_[i];
+    part.used = part.holds || (learning_[i] && calibrations_[i]->calibrator().namesCentroids() &&
+                               calibrations_[i]->calibrator().knowsItsPlace());
+  }
+  const char* refusal = refinement_->start({parts.data(), cameras_});
+  if (refusal != nullptr) return refusal;
+  for (std::size_t i = 0; i < cameras_; ++i) refining_[i] = parts[i].used && !frozen_[i];
+  return nullptr;
+}
+
+/// Cameras that are known as well by it as they were, or better.
+void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
+  const double reach_m = AdmissionOptions().reach_m;
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    if (!refining_[i]) continue;
+    refining_[i] = false;
+    const CameraEstimate found = refinement_->answer(cameraId(static_cast<int>(i)));
+    if (found.status != CameraStatus::kCalibrated) continue;
+    const double doubt = uncertaintyAround(models_[i], found, helicopter_in_world, reach_m);
+    const bool admissible = usable_[i] || doubt < AdmissionOptions().admit_uncertainty_m;
+    const double alone = uncertaintyAround(models_[i], estimates_[i], helicopter_in_world, reach_m);
+    if (!admissible || doubt > kWorseThanAlone * alone) continue;
+    found_by_cold_start_[i] = false;
+    place(i, found);
+    refined_[i] = true;
+  }
+}
+
+}  // namespace helical

@@ -224,7 +224,10 @@ bool AravisCamera::take(ReceivedFrame& received) {
     received.session->giveBack(received.buffer);
     received = newer;
   }
-  return true;
+  // What waited while the rig's other cameras were opened lies before a gap that nobody lost.
+  if (seen_ || monotonicNow() - received.arrival <= kStale) return true;
+  received.session->giveBack(received.buffer);
+  return false;
 }
 
 bool AravisCamera::poll(Frame& frame) {

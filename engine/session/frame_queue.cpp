@@ -7,7 +7,7 @@ namespace helical {
 namespace {
 
 constexpr std::size_t kMostBytes = 64u << 20;
-constexpr std::size_t kFewestSlots = 4, kMostSlots = 16;
+constexpr std::size_t kFewestSlots = 4, kMostSlots = 60;  // a second, where a disk or a busy machine takes its time
 
 }  // namespace
 

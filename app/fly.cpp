@@ -66,6 +66,12 @@ void calibrateInFlight(const FlyArguments& arguments, RigConfig& rig) {
                    given ? arguments.initial_error[1] : kFirstGuessErrorM, arguments.seed, given);
 }
 
+/// Its field is this process's own, though it lives in real time: its output alone goes through another one.
+bool hasFieldOfItsOwn(const RigConfig& rig) {
+  return rig.transmitter.kind == "output-process" &&
+         std::all_of(rig.cameras.begin(), rig.cameras.end(), [](const auto& camera) { return camera.source == "sim"; });
+}
+
 /// What changes the simulated field would do nothing to a real one.
 void refuseSimulationOptions(const FlyArguments& a, const RigConfig& rig) {
   if (!a.realtime)
@@ -73,7 +79,7 @@ void refuseSimulationOptions(const FlyArguments& a, const RigConfig& rig) {
                 "fly it with --realtime");
   const bool simulated = !a.occlude.empty() || !a.bump.empty() || a.pixel_noise >= 0.0 || a.outliers >= 0.0 ||
                          a.gust >= 0.0 || a.vary >= 0.0 || a.no_images;
-  if (simulated)
+  if (simulated && !hasFieldOfItsOwn(rig))
     throw Error(ErrorKind::kInput, "an option changes the simulated field, and this rig's is real", rig.path,
                 "leave out --occlude, --bump, --pixel-noise, --outliers, --gust, --vary and --no-images; `helical serve` "
                 "takes some of them");

@@ -35,11 +35,11 @@ constexpr double kFieldClear = 1.0;  // s, for a background of simulated cameras
 
 constexpr double kUrgentFrames = 400.0;
 
-double framesPerSecond(const RigConfig& rig) {
-  double total = 0.0;
-  for (const CameraConfig& camera : rig.cameras)
-    total += camera.source == "sim" ? rig.simulation.camera_rate_hz : camera.device.rate_hz;
-  return total;
+/// Drawn by this machine, all cameras together.
+double drawnPerSecond(const RigConfig& rig) {
+  return rig.simulation.camera_rate_hz *
+         static_cast<double>(std::count_if(rig.cameras.begin(), rig.cameras.end(),
+                                           [](const CameraConfig& camera) { return camera.source == "sim"; }));
 }
 
 using ObservationQueue = SpscQueue<Observation, 16>;
@@ -202,7 +202,7 @@ struct Engine::Implementation {
 
 void Engine::Implementation::capture(std::size_t index, const std::stop_token& stop) {
   // Many simulated cameras are more work than there is time: in real time they would lock out the window.
-  if (framesPerSecond(rig) <= kUrgentFrames) raisePriority(Urgency::kCapture);
+  if (drawnPerSecond(rig) <= kUrgentFrames) raisePriority(Urgency::kCapture);
   ObservationSource& source = *hardware.sources[index];
   Observation observation;
   while (!stop.stop_requested()) {

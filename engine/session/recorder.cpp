@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -177,13 +178,15 @@ void Recorder::run() {
     last = ended_.load(std::memory_order_acquire);  // before the queues are emptied: nothing comes after
     const bool items = writeItems(synced + kChunkTime);
     const bool busy = writeFrames() || items;
-    if (clock_.now() - synced >= kChunkTime) {
+    const TimeNs now = clock_.now();
+    if (now - synced >= kChunkTime) {
       attempt([&] {
         writer_->flush();
         writer_->sync();
       });
       disk_free_gb_.store(freeGigabytes(folder_), std::memory_order_relaxed);
-      synced = clock_.now();
+      // What a slow disk takes is part of the next chunk's time; half of that remains to fill it in.
+      synced = std::max(now, clock_.now() - kChunkTime / 2);
     } else if (!busy && !last) {
       std::this_thread::sleep_for(kPause);
     }

@@ -33,7 +33,7 @@ class Flight(unittest.TestCase):
         for camera, away_s in zip(report["cameras"], (1, 3, 1)):
             self.assertGreaterEqual(camera["returns"], 1, report)
             self.assertGreater(camera["longest_gap_s"], away_s - 0.1)
-        self.assertGreater(report["cameras"][0]["resent_packets"], 0)
+        self.assertGreater(rig.report["cameras"][0]["resent_packets"], 0)
         self.assertFalse(rig.report["crashed"], rig.report)
 
 

@@ -1,6 +1,7 @@
 #include "ui/camera_pane.h"
 
 #include <QContextMenuEvent>
+#include <QCoreApplication>
 #include <QMenu>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -19,6 +20,15 @@ namespace {
 // px of a pane's title
 constexpr int kRoomForBoard = 330;
 constexpr int kRoomForTools = 270;
+
+/// What the engine has set the device to; nothing of sources without such settings, or left as the camera has them.
+QString exposureText(const DeviceOptions& device) {
+  const auto tr = [](const char* text) { return QCoreApplication::translate("CameraPane", text); };
+  QStringList parts;
+  if (device.exposure_us) parts += tr("EXP %1 ms").arg(plainNumber(1e-3 * *device.exposure_us, 1));
+  if (device.gain_db) parts += tr("GAIN %1 dB").arg(plainNumber(*device.gain_db, 1));
+  return parts.join(QStringLiteral("  "));
+}
 
 }  // namespace
 
@@ -47,6 +57,7 @@ CameraPane::CameraPane(CameraId camera, const RigConfig& rig, QWidget* parent)
   masks.range = rig.marker_options;
   masks.background_threshold = rig.marker_options.background_threshold;
   view_->setMasks(masks);
+  view_->setExposure(exposureText(config.device));
   view_->setAccessibleName(tr("Picture of %1").arg(name_));
 
   auto* layout = new QVBoxLayout(this);

@@ -149,6 +149,11 @@ void CameraView::resizeEvent(QResizeEvent*) {
   viewport_.setRoom(size());
 }
 
+void CameraView::setExposure(const QString& text) {
+  exposure_ = text;
+  update();
+}
+
 void CameraView::setCaptions(const QString& left, const QString& right) {
   if (left == left_caption_ && right == right_caption_) return;
   left_caption_ = left;
@@ -211,24 +216,22 @@ void CameraView::paintFrame(QPainter& painter, const QRectF& area) const {
 void CameraView::paintCaptions(QPainter& painter, const QRectF& area) const {
   painter.setFont(theme::monoFont(7.6));
   const QFontMetrics metrics(painter.font());
-  const QRectF line(area.left() + 14, area.bottom() - 27, area.width() - 28, 15);
-  const auto paint = [&](const QString& text, double left) {
-    const QRectF box(left, line.top(), metrics.horizontalAdvance(text), line.height());
+  const double left = area.left() + 14, right = area.right() - 14;
+  const double top = area.top() + 12, bottom = area.bottom() - 27;
+  const auto paint = [&](const QString& text, double from, double line) {
+    if (text.isEmpty()) return;
+    const QRectF box(from, line, metrics.horizontalAdvance(text), 15.0);
     painter.fillRect(box.adjusted(-4, 0, 4, 0), QColor(8, 12, 16, 150));
     painter.setPen(QColor(205, 215, 226));
     painter.drawText(box, Qt::AlignVCenter, text);
   };
-  if (!left_caption_.isEmpty()) paint(left_caption_, line.left());
-  if (viewport_.zoomed()) {
-    const QString zoom = tr("%1 x").arg(viewport_.zoom(), 0, 'f', 1);
-    const QRectF corner(area.right() - 14 - metrics.horizontalAdvance(zoom), area.top() + 12,
-                        metrics.horizontalAdvance(zoom), line.height());
-    painter.fillRect(corner.adjusted(-4, 0, 4, 0), QColor(8, 12, 16, 150));
-    painter.drawText(corner, Qt::AlignVCenter, zoom);
-  }
+  paint(left_caption_, left, bottom);
   const int right_width = metrics.horizontalAdvance(right_caption_);
-  const bool room = metrics.horizontalAdvance(left_caption_) + 12 + right_width <= line.width();
-  if (!right_caption_.isEmpty() && room) paint(right_caption_, line.right() - right_width);
+  if (metrics.horizontalAdvance(left_caption_) + 12 + right_width <= right - left)
+    paint(right_caption_, right - right_width, bottom);
+  const QString zoom = viewport_.zoomed() ? tr("%1 x").arg(viewport_.zoom(), 0, 'f', 1) : QString();
+  paint(zoom, right - metrics.horizontalAdvance(zoom), top);
+  if (metrics.horizontalAdvance(exposure_) + 60 <= right - left) paint(exposure_, left, top);
 }
 
 void CameraView::paintBoards(QPainter& painter) const {

@@ -48,6 +48,8 @@ class CameraView : public QWidget {
   int paints() const { return paints_; }
   /// Small texts in the lower corners.
   void setCaptions(const QString& left, const QString& right);
+  /// Small text in the upper left corner.
+  void setExposure(const QString& text);
 
  Q_SIGNALS:
   void firstImagePainted();
@@ -92,6 +94,7 @@ class CameraView : public QWidget {
   bool had_image_ = false;
   QString left_caption_;
   QString right_caption_;
+  QString exposure_;
 };
 
 }  // namespace helical

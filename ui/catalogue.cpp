@@ -52,8 +52,9 @@ QString engineText(const QString& english) {
   static const QString kBy = QStringLiteral("calibrates anew by ");
   if (rest.startsWith(kBy))
     return head + translated(QStringLiteral("calibrates anew by ")) + rest.mid(kBy.size());
-  // "Take-off refused: it moves" has words of ours on both sides, "Camera 2: hidden" on one.
-  return translated(head.trimmed()) + QLatin1Char(' ') + translated(rest);
+  // "Take-off refused: it moves" has words of ours on both sides, "Camera 2: hidden" on one, and
+  // "Camera 2: order refused: it does not learn" on both of the rest.
+  return translated(head.trimmed()) + QLatin1Char(' ') + engineText(rest);
 }
 
 }  // namespace helical

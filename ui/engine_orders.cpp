@@ -1,5 +1,7 @@
 #include "ui/engine_orders.h"
 
+#include <QDir>
+
 #include "engine/base/error.h"
 #include "engine/geometry/rotation.h"
 #include "ui/open_dialog.h"
@@ -31,6 +33,10 @@ void EngineOrders::arm(bool arm) {
 
 void EngineOrders::takeOff() {
   if (engine_) engine_->takeOff();
+}
+
+void EngineOrders::hold() {
+  if (engine_) engine_->hold();
 }
 
 void EngineOrders::land() {
@@ -79,6 +85,29 @@ void EngineOrders::setCalibrator(const QString& method) {
 
 void EngineOrders::restartCalibration(CameraId camera) {
   if (engine_) engine_->restartCalibration(camera);
+}
+
+void EngineOrders::orderCalibration(CameraId camera, CalibrationOrderKind kind) {
+  if (!engine_ || engine_->orderCalibration({kind, camera, {}, Matrix6d::Zero()})) return;
+  openNotice(window_, tr("Not ordered"), tr("The engine is still busy with earlier orders. Try again."));
+}
+
+void EngineOrders::loadCalibration() {
+  askWhatToOpen(window_, tr("Load a calibration"), QDir::currentPath(), tr("Calibrations (*.toml)"),
+                [this](const QString& file) { adoptCalibration(file); });
+}
+
+void EngineOrders::saveCalibration() {
+  askWhereToSave(window_, tr("Save the calibration"), QStringLiteral("calibration.toml"),
+                 tr("Calibrations (*.toml)"), [this](const QString& file) { writeCalibration(file); });
+}
+
+void EngineOrders::adoptCalibration(const QString& file) {
+  attempt(tr("Calibration not loaded"), [&] { engine_->adoptCalibration(file.toStdString()); });
+}
+
+void EngineOrders::writeCalibration(const QString& file) {
+  attempt(tr("Calibration not saved"), [&] { engine_->saveCalibration(file.toStdString()); });
 }
 
 void EngineOrders::change(const FlightChange& change) {

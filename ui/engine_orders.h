@@ -22,6 +22,7 @@ class EngineOrders : public QObject {
  public Q_SLOTS:
   void arm(bool arm);
   void takeOff();
+  void hold();
   void land();
   void stop();
   void hideCamera(helical::CameraId camera, bool hidden);
@@ -34,6 +35,10 @@ class EngineOrders : public QObject {
   void takeBackground();
   void setCalibrator(const QString& method);
   void restartCalibration(helical::CameraId camera);
+  void orderCalibration(helical::CameraId camera, helical::CalibrationOrderKind kind);
+  /// Both ask for the file first.
+  void loadCalibration();
+  void saveCalibration();
   void change(const helical::FlightChange& change);
 
  Q_SIGNALS:
@@ -41,6 +46,8 @@ class EngineOrders : public QObject {
   void changed();
 
  private:
+  void adoptCalibration(const QString& file);
+  void writeCalibration(const QString& file);
   template <class Order>
   void attempt(const QString& what, const Order& order);
 

@@ -36,10 +36,12 @@ KeySheet::KeySheet(QWidget* parent) : QDialog(parent) {
   };
   heading(tr("Flight"));
   add(tr("Esc"), tr("STOP: rotors off at once, whatever has the focus"));
+  add(tr("Tab to Arm, hold Space"), tr("arm: hold the key or the button down for a second"));
   heading(tr("Window"));
   add(QStringLiteral("1 \u2026 9"), tr("hide or show a camera"));
   add(tr("Space"), tr("hold the plots still, or follow again"));
   add(QStringLiteral("F1"), tr("this sheet"));
+  add(tr("Ctrl+F1"), tr("the manual"));
   add(QStringLiteral("F11"), tr("full screen"));
   add(tr("Tab"), tr("next control; Space presses it"));
   add(tr("Ctrl+Q"), tr("quit"));

@@ -25,6 +25,7 @@ MainMenus::MainMenus(const RigConfig& rig, const Panels& panels, QMenuBar& bar, 
   buildDisturb(*bar.addMenu(tr("&Disturb")));
   buildView(*bar.addMenu(tr("&View")));
   QMenu* help = bar.addMenu(tr("&Help"));
+  help->addAction(tr("Manual"), QKeySequence(Qt::CTRL | Qt::Key_F1), this, &MainMenus::manualRequested);
   help->addAction(tr("Keys and mouse"), QKeySequence(Qt::Key_F1), this, &MainMenus::keysRequested);
   help->addAction(tr("About Helical"), this, &MainMenus::aboutRequested);
 }

@@ -53,6 +53,7 @@ class MainMenus : public QObject {
   void layoutRequested(helical::DockLayouts::Layout layout);
   void soundToggled(bool on);
   void lightToggled(bool on);
+  void manualRequested();
   void keysRequested();
   void aboutRequested();
 

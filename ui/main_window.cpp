@@ -1,59 +1,48 @@
 #include "ui/main_window.h"
 
-#include <QActionGroup>
 #include <QApplication>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QLabel>
-#include <QMenu>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
 #include <QStatusBar>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <string>
 
-#include "engine/base/log.h"
+#include "engine/base/error.h"
+#include "engine/config/resource_files.h"
 #include "ui/alarm_bar.h"
 #include "ui/attitude_indicator.h"
+#include "ui/button_keys.h"
 #include "ui/calibration_panel.h"
-#include "ui/camera_pane.h"
 #include "ui/camera_wall.h"
-#include "ui/catalogue.h"
 #include "ui/colour_tool.h"
 #include "ui/emergency_stop.h"
 #include "ui/engine_orders.h"
 #include "ui/event_list.h"
 #include "ui/event_panel.h"
 #include "ui/flight_panel.h"
-#include "ui/format.h"
 #include "ui/key_sheet.h"
 #include "ui/main_menus.h"
+#include "ui/manual_window.h"
 #include "ui/open_dialog.h"
 #include "ui/panel_title.h"
 #include "ui/plan_editor.h"
 #include "ui/playback_bar.h"
 #include "ui/plot_deck.h"
 #include "ui/scene_view.h"
-#include "ui/startup_time.h"
 #include "ui/theme.h"
 #include "ui/top_bar.h"
 #include "ui/tuning_editor.h"
+#include "ui/viewpoints.h"
 
 namespace helical {
 namespace {
 
 constexpr int kTickMs = 16;
-// In timer ticks. Numbers that change faster than this cannot be read.
-constexpr std::uint64_t kPictureEvery = 2;
-constexpr std::uint64_t kSceneEvery = 3;
-// Setting up OpenGL takes a whole core for a moment: not while the cameras take their background.
-constexpr TimeNs kSceneFrom = kNanosecondsPerSecond;
-constexpr std::uint64_t kPlotsEvery = 5;
-constexpr std::uint64_t kNumbersEvery = 6;
 
 QWidget* framed(QWidget* content) {
   auto* box = new QWidget;
@@ -68,6 +57,7 @@ QWidget* framed(QWidget* content) {
 QScrollArea* scrolled(QWidget* content) {
   auto* scroll = new QScrollArea;
   scroll->setWidget(content);
+  content->setAutoFillBackground(false);  // setWidget wants it filled, with another colour than the panel's
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   return scroll;
@@ -95,16 +85,18 @@ MainWindow::MainWindow(const RigConfig& rig, const WindowOptions& options)
   if (std::any_of(rig_.cameras.begin(), rig_.cameras.end(),
                   [](const CameraConfig& camera) { return camera.learns(); })) {
     // What a newcomer should see first: the camera that finds its place.
-    viewpoints_->actions().at(static_cast<int>(SceneViewpoint::kIso))->trigger();
+    viewpoints_->lookFromTheSide();
     plots_->showSheet(PlotDeck::kCalibration);
   }
 
   connect(top_bar_, &TopBar::armRequested, orders_, &EngineOrders::arm);
   connect(top_bar_, &TopBar::takeOffRequested, orders_, &EngineOrders::takeOff);
+  connect(top_bar_, &TopBar::holdRequested, orders_, &EngineOrders::hold);
   connect(top_bar_, &TopBar::landRequested, orders_, &EngineOrders::land);
   connect(top_bar_, &TopBar::stopRequested, orders_, &EngineOrders::stop);
   connect(new EmergencyStop(top_bar_->stopButton(), this), &EmergencyStop::pressed, orders_,
           &EngineOrders::stop);
+  new ButtonKeys(this);
   timer_.setTimerType(Qt::PreciseTimer);
   connect(&timer_, &QTimer::timeout, this, &MainWindow::tick);
 }
@@ -126,6 +118,7 @@ void MainWindow::attach(FlightPlayback& playback) {
   // Nobody flies here.
   plan_->setEnabled(false);
   gains_->setEnabled(false);
+  calibration_->setCommands(false);
   setWindowTitle(tr("%1 - recorded flight").arg(QString::fromStdString(playback.file().filename().string())));
   watch(playback);
 }
@@ -176,7 +169,8 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 void MainWindow::buildPanels() {
   scene_ = new SceneView(rig_);
   scene_title_ = new PanelTitle(tr("3D scene"), theme::kActive);
-  buildSceneTitle(*scene_title_);
+  viewpoints_ = new Viewpoints(rig_, *scene_, this);
+  viewpoints_->addButtons(*scene_title_);
   auto* center = new QWidget;
   auto* layout = new QVBoxLayout(center);
   layout->setContentsMargins(0, 5, 0, 0);
@@ -196,6 +190,9 @@ void MainWindow::buildPanels() {
   calibration_ = new CalibrationPanel(rig_, Engine::calibrators());
   connect(calibration_, &CalibrationPanel::methodChosen, orders_, &EngineOrders::setCalibrator);
   connect(calibration_, &CalibrationPanel::restartRequested, orders_, &EngineOrders::restartCalibration);
+  connect(calibration_, &CalibrationPanel::ordered, orders_, &EngineOrders::orderCalibration);
+  connect(calibration_, &CalibrationPanel::loadRequested, orders_, &EngineOrders::loadCalibration);
+  connect(calibration_, &CalibrationPanel::saveRequested, orders_, &EngineOrders::saveCalibration);
   docks_.calibration = addPanel(new PanelTitle(tr("Calibration"), theme::kActive),
                                 framed(scrolled(calibration_)), Qt::RightDockWidgetArea);
   events_ = new EventPanel;
@@ -254,49 +251,6 @@ QDockWidget* MainWindow::addPanel(PanelTitle* title, QWidget* content, Qt::DockW
   return dock;
 }
 
-void MainWindow::buildSceneTitle(PanelTitle& title) {
-  viewpoints_ = new QActionGroup(this);
-  const std::array<std::pair<QString, QString>, 3> names{
-      {{tr("Follow"), tr("The eye goes with the helicopter")},
-       {tr("Top"), tr("From above, +x to the right")},
-       {tr("Iso"), tr("All of the field, from the side")}}};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    QAction* action = viewpoints_->addAction(names[i].first);
-    action->setCheckable(true);
-    action->setToolTip(names[i].second);
-    action->setChecked(i == 0);
-    connect(action, &QAction::triggered, this, [this, i] { scene_->look(static_cast<SceneViewpoint>(i)); });
-    auto* button = new QToolButton;
-    button->setObjectName(QStringLiteral("small"));
-    button->setDefaultAction(action);
-    button->setFont(theme::uiFont(8, QFont::Medium));
-    button->setFixedHeight(19);
-    button->setFocusPolicy(Qt::TabFocus);
-    button->setAccessibleName(tr("%1 view").arg(names[i].first));
-    title.addWidget(button);
-  }
-  auto* through = new QToolButton;
-  through->setObjectName(QStringLiteral("small"));
-  through->setText(tr("Camera"));
-  through->setFont(theme::uiFont(8, QFont::Medium));
-  through->setFixedHeight(19);
-  through->setFocusPolicy(Qt::TabFocus);
-  through->setPopupMode(QToolButton::InstantPopup);
-  through->setToolTip(tr("Through a camera, from where it is believed to stand"));
-  through->setAccessibleName(tr("View through a camera"));
-  auto* menu = new QMenu(through);
-  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    QAction* action =
-        viewpoints_->addAction(tr("Through %1").arg(QString::fromStdString(rig_.cameras[i].name)));
-    action->setCheckable(true);
-    connect(action, &QAction::triggered, this,
-            [this, i] { scene_->lookThrough(cameraId(static_cast<int>(i))); });
-    menu->addAction(action);
-  }
-  through->setMenu(menu);
-  title.addWidget(through);
-}
-
 void MainWindow::buildMenus() {
   setAcceptDrops(true);
   menus_ = new MainMenus(rig_,
@@ -322,12 +276,22 @@ void MainWindow::buildMenus() {
     theme::apply(*qApp, light ? theme::Theme::kLight : theme::Theme::kDark);
   });
   connect(menus_, &MainMenus::layoutRequested, this, &MainWindow::arrange);
+  connect(menus_, &MainMenus::manualRequested, this, &MainWindow::openManual);
   connect(menus_, &MainMenus::keysRequested, this, [this] { openDialog(new KeySheet(this)); });
   connect(menus_, &MainMenus::aboutRequested, this, [this] {
     openNotice(this, tr("About Helical"),
                tr("<b>Helical</b><br>Ground control for small helicopters that carry no sensors.<br><br>"
                   "GPL-3.0-or-later"));
   });
+}
+
+void MainWindow::openManual() {
+  try {
+    const auto file = resourceFolder() / "manual" / "manual.md";
+    openDialog(new ManualWindow(QString::fromStdString(file.string()), this));
+  } catch (const Error& error) {
+    openNotice(this, tr("Manual"), QString::fromUtf8(error.what()));
+  }
 }
 
 void MainWindow::chooseSession() {
@@ -380,95 +344,6 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::stop() {
   orders_->stop();
-}
-
-void MainWindow::tick() {
-  ++ticks_;
-  view_->poll();
-  if (playback_bar_ != nullptr) playback_bar_->refresh();
-  fetchTicks();
-  EngineEvent event;
-  while (view_->nextEvent(event)) {
-    events_->add(event);
-    alarms_->add(event);
-    newest_event_->setText(engineText(QString::fromUtf8(event.text.data())));
-  }
-  if (ticks_ % kPictureEvery == 0) fetchPictures();
-  if (ticks_ % kSceneEvery == 0) fetchCalibrations();
-  const EngineSnapshot& snapshot = view_->snapshot();
-  if (ticks_ % kSceneEvery == 0 && snapshot.time > kSceneFrom) scene_->show(snapshot);
-  if (ticks_ % kPlotsEvery == 1) plots_->redraw();
-  if (ticks_ % kNumbersEvery == 1 && snapshot.tick > 0) showNumbers(snapshot);
-  if (since_load_.elapsed() >= 1000) showLoad();
-  if (options_.auto_take_off && !took_off_by_itself_ && snapshot.pose_known && snapshot.failing_checks == 0) {
-    took_off_by_itself_ = true;
-    orders_->arm(true);
-    orders_->takeOff();
-  }
-}
-
-void MainWindow::fetchTicks() {
-  EngineSnapshot tick;
-  while (view_->nextTick(tick)) {
-    plots_->addTick(tick);
-    calibration_->addTick(tick);
-    scene_->addTick(tick);
-    for (int i = 0; i < std::min(tick.camera_count, cameras_->count()); ++i)
-      cameras_->pane(i).addTrack(tick.cameras[static_cast<std::size_t>(i)].track);
-  }
-}
-
-void MainWindow::fetchPictures() {
-  for (int i = 0; i < cameras_->count(); ++i)
-    if (view_->pollPicture(cameraId(i))) cameras_->pane(i).setPicture(view_->picture(cameraId(i)));
-}
-
-void MainWindow::fetchCalibrations() {
-  for (int i = 0; i < cameras_->count(); ++i) {
-    if (!view_->pollCalibration(cameraId(i))) continue;
-    const CalibrationView& view = view_->calibration(cameraId(i));
-    scene_->setCalibration(i, view);
-    calibration_->setHypotheses(i, view.total);
-  }
-}
-
-void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
-  for (int i = 0; i < std::min(snapshot.camera_count, cameras_->count()); ++i) {
-    const CameraSnapshot& camera = snapshot.cameras[static_cast<std::size_t>(i)];
-    cameras_->pane(i).setState(camera, snapshot);
-  }
-  top_bar_->show(snapshot);
-  if (engine_ == nullptr) {
-    // Nobody flies here.
-    top_bar_->armButton()->setEnabled(false);
-    top_bar_->takeOffButton()->setEnabled(false);
-    top_bar_->landButton()->setEnabled(false);
-  }
-  menus_->show(snapshot, top_bar_->takeOffButton()->isEnabled(), top_bar_->landButton()->isEnabled());
-  flight_->show(snapshot);
-  attitude_->show(snapshot);
-  calibration_->show(snapshot);
-}
-
-void MainWindow::showLoad() {
-  const double seconds = static_cast<double>(since_load_.restart()) * 1e-3;
-  const double gui_hz = static_cast<double>(ticks_ - ticks_at_load_) / seconds;
-  const double scene_hz = (scene_->renderedFrames() - scenes_at_load_) / seconds;
-  ticks_at_load_ = ticks_;
-  scenes_at_load_ = scene_->renderedFrames();
-  load_->setText(tr("GUI %1 Hz   3D %2 ms   lost ticks %3")
-                     .arg(plainNumber(gui_hz, 1), plainNumber(scene_->renderMilliseconds(), 1))
-                     .arg(view_->lostTicks()));
-  scene_title_->setNote(tr("%1 Hz").arg(plainNumber(scene_hz, 0)));
-}
-
-void MainWindow::noteFirstImage() {
-  if (first_image_) return;
-  first_image_ = sinceProcessStart();
-  if (!first_image_) return;
-  log(LogLevel::kDebug,
-      "first image after " + std::to_string(*first_image_ / kNanosecondsPerMillisecond) + " ms");
-  Q_EMIT firstImage(*first_image_);
 }
 
 }  // namespace helical

@@ -11,7 +11,6 @@
 #include "ui/dock_layouts.h"
 #include "ui/orbit_view.h"
 
-class QActionGroup;
 class QLabel;
 
 namespace helical {
@@ -33,6 +32,7 @@ class PlotDeck;
 class SceneView;
 class TopBar;
 class TuningEditor;
+class Viewpoints;
 
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
@@ -100,11 +100,11 @@ class MainWindow : public QMainWindow {
   void buildFlightPanels();
   void connectCameras();
   QDockWidget* addPanel(PanelTitle* title, QWidget* content, Qt::DockWidgetArea area);
-  void buildSceneTitle(PanelTitle& title);
   void buildMenus();
   void buildStatusBar();
 
   void watch(FlightView& view);
+  void openManual();
   void chooseSession();
   void chooseExport();
   void chooseComparison();
@@ -147,7 +147,7 @@ class MainWindow : public QMainWindow {
   MainMenus* menus_;
   ColourTool* colour_tool_;
   PanelTitle* scene_title_;
-  QActionGroup* viewpoints_;
+  Viewpoints* viewpoints_;
   QLabel* newest_event_;
   QLabel* load_;
 };

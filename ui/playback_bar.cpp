@@ -56,6 +56,7 @@ QToolButton* PlaybackBar::addButton(const QString& text, const QString& tip, con
   button->setToolTip(tip + QStringLiteral(" (%1)").arg(key.toString(QKeySequence::NativeText)));
   button->setAccessibleName(tip);
   button->setShortcut(key);
+  button->setObjectName(QStringLiteral("icon"));
   button->setFixedWidth(30);
   static_cast<QHBoxLayout*>(layout())->addWidget(button);
   return button;

@@ -66,7 +66,7 @@ struct ConvergenceColumns {
 /// Error solid where it is known, sigma dashed, the Cramer-Rao bound dotted.
 PlotLane convergence(const RigConfig& rig, const TickHistory& history, const QString& title,
                      const QString& unit, const ConvergenceColumns& columns, double scale) {
-  PlotLane result = lane(title, unit, 1.0, 2);
+  PlotLane result = lane(title, unit, 1.0, 3);
   result.logarithmic = true;
   result.one_sided = true;
   const std::vector<int> cameras = learningCameras(rig);

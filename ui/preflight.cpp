@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/catalogue.h"
 #include "ui/format.h"
 #include "ui/status_words.h"
 
@@ -89,6 +90,10 @@ std::vector<PreflightItem> preflightList(const RigConfig& rig, const EngineSnaps
     items.push_back(cameraItem(rig.cameras[i], snapshot.cameras[i], snapshot.ticks_per_second));
   items.push_back(engineItem(snapshot));
   items.push_back(safetyItem(snapshot));
+  if (snapshot.phase != FlightPhase::kIdle) return items;
+  for (std::uint32_t bits = snapshot.failing_checks; bits != 0; bits &= bits - 1)
+    items.push_back({Readiness::kBad, tr("Arming"),
+                     engineText(QString::fromUtf8(toString(static_cast<PreArmCheck>(bits & (~bits + 1)))))});
   return items;
 }
 

@@ -43,6 +43,16 @@ StatusWord calibrationWord(const EngineSnapshot& snapshot, int camera) {
     if (i != camera && track.selected_count > 0 && snapshot.time - track.exposure < kTrackedFor) ++teachers;
   }
   if (teachers < 2) return {tr("Needs two others"), theme::kCaution};
+  switch (state.estimate.status) {
+    case CameraStatus::kUncalibrated:
+      return {tr("Searching labels"), theme::kActive};
+    case CameraStatus::kCalibrating:
+      return {tr("Converging"), theme::kActive};
+    case CameraStatus::kRejected:
+      return {tr("Knocked"), theme::kCaution};
+    case CameraStatus::kCalibrated:
+      break;
+  }
   return word;
 }
 
@@ -91,9 +101,11 @@ StatusWord readinessWord(const EngineSnapshot& snapshot) {
   if (snapshot.phase == FlightPhase::kOff) return {tr("Landed"), theme::kHealthy};
   if (snapshot.safety != SafetyState::kNormal) return safetyWord(snapshot.safety);
   if (inFlight(snapshot.phase)) return phaseWord(snapshot.phase);
-  if (snapshot.pose_known && snapshot.obstacle != nullptr) return {tr("Not ready"), theme::kCaution};
-  if (snapshot.pose_known) return {tr("Ready"), theme::kHealthy};
-  return {tr("No pose"), theme::kCaution};
+  if (!snapshot.pose_known) return {tr("No pose"), theme::kCaution};
+  if (snapshot.obstacle != nullptr) return {tr("Not ready"), theme::kCaution};
+  if (snapshot.armed) return {tr("Armed"), theme::kCaution};
+  if (snapshot.failing_checks != 0) return {tr("Not ready"), theme::kCaution};
+  return {tr("Ready"), theme::kHealthy};
 }
 
 QString failsafeNames(std::uint32_t failsafes) {

@@ -25,6 +25,7 @@ QPushButton:pressed, QToolButton:pressed { background: @pressed@; }
 QPushButton:focus, QToolButton:focus { border-color: @active@; }
 QPushButton:disabled, QToolButton:disabled { background: @off@; border-color: @edge@; color: @off_text@; }
 QToolButton:checked { background: @on@; border-color: @on_border@; color: @on_text@; }
+QToolButton#icon { padding: 3px 0; }
 QToolButton#small { padding: 1px 8px; border-radius: 3px; }
 QPushButton#takeOff:enabled { background: @on@; border-color: @on_border@; color: @on_text@; }
 QPushButton#takeOff:enabled:hover { background: @on_hover@; }

@@ -1,11 +1,14 @@
 #include "ui/top_bar.h"
 
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenuBar>
 #include <QPushButton>
+#include <array>
 
 #include "ui/format.h"
+#include "ui/hold_button.h"
 #include "ui/preflight_popup.h"
 #include "ui/status_chip.h"
 #include "ui/status_words.h"
@@ -32,17 +35,54 @@ QFont brandFont() {
   return font;
 }
 
-QPushButton* makeButton(const QString& text, const QString& tip, const char* object_name) {
-  auto* button = new QPushButton(text);
+template <class Button>
+Button* dressed(Button* button, const QString& tip, const char* object_name) {
   button->setObjectName(QLatin1String(object_name));
   button->setToolTip(tip);
-  button->setAccessibleName(text);
+  button->setAccessibleName(button->text());
   button->setFont(theme::uiFont(9, QFont::DemiBold));
   button->setFixedHeight(kButtonHeight);
   // Space or Enter on a button that got the focus by accident must not start or stop a flight.
   button->setFocusPolicy(Qt::TabFocus);
   button->setAutoDefault(false);
   return button;
+}
+
+QPushButton* makeButton(const QString& text, const QString& tip, const char* object_name) {
+  return dressed(new QPushButton(text), tip, object_name);
+}
+
+/// Qt would hand the focus of a button that goes off to the next one that is on, and the next Space would land, or
+/// stop the rotors.
+void enable(QPushButton& button, QPushButton& harmless, bool on) {
+  if (!on && button.hasFocus()) harmless.setFocus(Qt::OtherFocusReason);
+  button.setEnabled(on);
+}
+
+constexpr std::array kTransmitterWords{
+    QT_TRANSLATE_NOOP("TopBar", "absent"), QT_TRANSLATE_NOOP("TopBar", "fault"),
+    QT_TRANSLATE_NOOP("TopBar", "pilot"),  QT_TRANSLATE_NOOP("TopBar", "bench"),
+    QT_TRANSLATE_NOOP("TopBar", "uncal."), QT_TRANSLATE_NOOP("TopBar", "ready")};
+
+QString transmitterText(std::size_t index) {
+  return QCoreApplication::translate("TopBar", kTransmitterWords.at(index));
+}
+
+/// The chip keeps room for it.
+QString longestTransmitterWord() {
+  QString longest;
+  for (std::size_t i = 0; i < kTransmitterWords.size(); ++i)
+    if (const QString text = transmitterText(i); text.size() > longest.size()) longest = text;
+  return longest;
+}
+
+StatusWord transmitterWord(const TransmitterStatus& status) {
+  if (!status.present) return {transmitterText(0), theme::kDanger};
+  if (status.fault || !status.self_test_passed) return {transmitterText(1), theme::kDanger};
+  if (status.pilot_flies) return {transmitterText(2), theme::kCaution};
+  if (status.bench) return {transmitterText(3), theme::kCaution};
+  if (!status.channels_calibrated) return {transmitterText(4), theme::kCaution};
+  return {transmitterText(5), theme::kHealthy};
 }
 
 }  // namespace
@@ -67,6 +107,8 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
   cameras_->setToolTip(tr("Cameras that help the pose now, of all in the rig"));
   engine_ = new StatusChip(tr("Engine"), QStringLiteral("60.0 Hz"));
   engine_->setToolTip(tr("Control ticks per second"));
+  transmitter_ = new StatusChip(tr("Radio"), longestTransmitterWord());
+  transmitter_->setToolTip(tr("The transmitter, from what it last said"));
   time_ = new StatusChip(tr("Flight"), QStringLiteral("00:00.0"));
   time_->setToolTip(tr("Since the rotors started"));
   buildButtons();
@@ -84,17 +126,29 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
   layout->addWidget(mode_);
   layout->addSpacing(6);
   layout->addWidget(readiness_);
-  for (QWidget* widget :
-       {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_), static_cast<QWidget*>(time_)})
+  for (QWidget* widget : {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_),
+                          static_cast<QWidget*>(transmitter_), static_cast<QWidget*>(time_)})
     layout->addWidget(widget);
   layout->addSpacing(6);
-  for (QWidget* widget : {arm_, take_off_, land_, stop_}) layout->addWidget(widget);
+  for (QWidget* widget : std::initializer_list<QWidget*>{arm_, take_off_, hold_, land_, stop_})
+    layout->addWidget(widget);
 }
 
 void TopBar::buildButtons() {
-  arm_ = makeButton(tr("Arm"), tr("Allow the rotors to turn, or forbid it again"), "arm");
+  arm_ = dressed(new HoldButton(tr("Arm")), tr("Hold it down for a second: then the rotors may turn"), "arm");
   arm_->setEnabled(false);
-  connect(arm_, &QPushButton::clicked, this, [this] { Q_EMIT armRequested(!armed_); });
+  connect(arm_, &HoldButton::held, this, [this] { Q_EMIT armRequested(true); });
+  connect(arm_, &QPushButton::clicked, this, [this] {
+    if (armed_) Q_EMIT armRequested(false);
+  });
+  hold_ = makeButton(tr("Hold"), tr("Stay where it is; again: fly on"), "hold");
+  hold_->setEnabled(false);
+  connect(hold_, &QPushButton::clicked, this, [this] {
+    if (holding_)
+      Q_EMIT takeOffRequested();  // in the air that ends a hold
+    else
+      Q_EMIT holdRequested();
+  });
   take_off_ = makeButton(tr("Take off"),
                          tr("Start the flight plan; the readiness word tells what is missing"), "takeOff");
   land_ = makeButton(tr("Land"), tr("Land where it is"), "land");
@@ -144,14 +198,27 @@ void TopBar::show(const EngineSnapshot& snapshot) {
                snapshot.ticks_per_second > 0.9 * rig_.control.rate_hz ? theme::kHealthy : theme::kCaution);
   time_->set(snapshot.flight_time_s > 0.0 ? clockText(fromSeconds(snapshot.flight_time_s)) : kNoValue,
              inFlight(snapshot.phase) ? theme::kActive : theme::kFaint);
+  const StatusWord radio = transmitterWord(snapshot.devices.transmitter);
+  transmitter_->set(radio.text, radio.color);
+  enableButtons(snapshot);
+}
+
+void TopBar::enableButtons(const EngineSnapshot& snapshot) {
   const bool cut = snapshot.safety == SafetyState::kCut;
   armed_ = snapshot.armed;
+  holding_ = snapshot.holding;
   arm_->setText(armed_ ? tr("Disarm") : tr("Arm"));
   arm_->setAccessibleName(arm_->text());
-  arm_->setEnabled(!cut && snapshot.phase == FlightPhase::kIdle);
-  take_off_->setEnabled(!cut && snapshot.armed && snapshot.phase == FlightPhase::kIdle);
-  land_->setEnabled(!cut &&
-                    (snapshot.phase == FlightPhase::kLiftOff || snapshot.phase == FlightPhase::kFlying));
+  arm_->setToolTip(armed_ ? tr("Forbid the rotors to turn")
+                          : tr("Hold it down for a second: then the rotors may turn"));
+  arm_->setHoldNeeded(!armed_);
+  enable(*arm_, *readiness_, !cut && snapshot.phase == FlightPhase::kIdle);
+  enable(*take_off_, *readiness_, !cut && snapshot.armed && snapshot.phase == FlightPhase::kIdle);
+  hold_->setText(holding_ ? tr("Fly on") : tr("Hold"));
+  hold_->setAccessibleName(hold_->text());
+  enable(*hold_, *readiness_, !cut && snapshot.phase == FlightPhase::kFlying);
+  enable(*land_, *readiness_,
+         !cut && (snapshot.phase == FlightPhase::kLiftOff || snapshot.phase == FlightPhase::kFlying));
 }
 
 }  // namespace helical

@@ -11,11 +11,13 @@ class QPushButton;
 
 namespace helical {
 
+class HoldButton;
 class PreflightPopup;
 class StatusChip;
 
 /// The bar that is always there: name, menus, readiness in one word (a click opens the pre-flight list),
-/// rates, flight time, Arm, Take off, Land, STOP. Buttons only ask; what is shown is what the engine answers.
+/// rates, transmitter, flight time, Arm (held down for a second), Take off, Hold, Land, STOP. Buttons only
+/// ask; what is shown is what the engine answers.
 class TopBar : public QWidget {
   Q_OBJECT
 
@@ -24,7 +26,8 @@ class TopBar : public QWidget {
   explicit TopBar(const RigConfig& rig, QWidget* parent = nullptr);
 
   QMenuBar* menuBar() const { return menu_bar_; }
-  QPushButton* armButton() const { return arm_; }
+  HoldButton* armButton() const { return arm_; }
+  QPushButton* holdButton() const { return hold_; }
   QPushButton* takeOffButton() const { return take_off_; }
   QPushButton* landButton() const { return land_; }
   QPushButton* stopButton() const { return stop_; }
@@ -37,11 +40,13 @@ class TopBar : public QWidget {
  Q_SIGNALS:
   void armRequested(bool arm);
   void takeOffRequested();
+  void holdRequested();
   void landRequested();
   void stopRequested();
 
  private:
   void buildButtons();
+  void enableButtons(const EngineSnapshot& snapshot);
   void setReadiness(const EngineSnapshot& snapshot);
 
   QMenuBar* menu_bar_;
@@ -52,8 +57,11 @@ class TopBar : public QWidget {
   StatusChip* cameras_;
   StatusChip* engine_;
   StatusChip* time_;
+  StatusChip* transmitter_;
   bool armed_ = false;
-  QPushButton* arm_;
+  bool holding_ = false;
+  HoldButton* arm_;
+  QPushButton* hold_;
   QPushButton* take_off_;
   QPushButton* land_;
   QPushButton* stop_;

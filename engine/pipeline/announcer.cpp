@@ -47,6 +47,24 @@ Severity severityOf(SafetyState demand) {
   return Severity::kDanger;
 }
 
+const char* calibrationText(CalibrationOrderKind kind) {
+  switch (kind) {
+    case CalibrationOrderKind::kFreeze:
+      return "frozen by the operator: it learns no more";
+    case CalibrationOrderKind::kResume:
+      return "learns on";
+    case CalibrationOrderKind::kAccept:
+      return "accepted by the operator";
+    case CalibrationOrderKind::kTrustRig:
+      return "believed to stand where the rig file says";
+    case CalibrationOrderKind::kAdopt:
+      return "believed to stand where the loaded calibration says";
+    case CalibrationOrderKind::kRefine:
+      return "solved for together with all others";
+  }
+  return "";
+}
+
 }  // namespace
 
 Announcer::Announcer(const RigConfig& rig) {
@@ -67,6 +85,14 @@ EngineEvent Announcer::event(TimeNs time, Severity severity, std::size_t camera,
   EngineEvent result{time, severity, {}};
   std::snprintf(result.text.data(), result.text.size(), "%s: %s", names_[camera].c_str(), text);
   return result;
+}
+
+EngineEvent Announcer::ordered(TimeNs time, std::size_t camera, CalibrationOrderKind kind,
+                               const char* refusal) const {
+  if (refusal == nullptr) return event(time, Severity::kInfo, camera, calibrationText(kind));
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "order refused: %s", refusal);
+  return event(time, Severity::kCaution, camera, text.data());
 }
 
 void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& raise) {

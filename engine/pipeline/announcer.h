@@ -7,6 +7,7 @@
 
 #include "engine/base/ids.h"
 #include "engine/config/rig_config.h"
+#include "engine/pipeline/calibration_order.h"
 #include "engine/pipeline/snapshot.h"
 
 namespace helical {
@@ -25,6 +26,8 @@ class Announcer {
   static EngineEvent event(TimeNs time, Severity severity, const char* text);
   /// "NAME: text".
   EngineEvent event(TimeNs time, Severity severity, std::size_t camera, const char* text) const;
+  /// What came of an order; `refusal` says why nothing, or null.
+  EngineEvent ordered(TimeNs time, std::size_t camera, CalibrationOrderKind kind, const char* refusal) const;
 
  private:
   /// What of a camera is announced when it changes.

@@ -303,10 +303,7 @@ void Engine::Implementation::obeyCalibrationOrders(TimeNs now) {
     if (camera >= rig.cameras.size()) continue;
     const char* refusal = loop.orderCalibration(order);
     if (tap != nullptr) tap->onCalibrationOrder(order, now);
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), refusal == nullptr ? "%s%s" : "no %s: %s", toString(order.kind),
-                  refusal == nullptr ? "" : refusal);
-    raise(announcer.event(now, refusal == nullptr ? Severity::kInfo : Severity::kCaution, camera, text.data()));
+    raise(announcer.ordered(now, camera, order.kind, refusal));
   }
 }
 

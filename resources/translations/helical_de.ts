@@ -44,10 +44,6 @@
         <translation>Seit 0,5 s keine Lage: blinder Sinkflug</translation>
     </message>
     <message>
-        <source>Failsafe: lands where it is</source>
-        <translation>Notverfahren: landet, wo er ist</translation>
-    </message>
-    <message>
         <source>Rotors cut, latched</source>
         <translation>Rotoren abgestellt, endgültig</translation>
     </message>
@@ -2134,6 +2130,270 @@ m/s</translation>
     <message>
         <source>The comparison cannot be saved</source>
         <translation>Der Vergleich lässt sich nicht speichern</translation>
+    </message>
+    <message>
+        <source>Tab to Arm, hold Space</source>
+        <translation>Tab zu „Scharf“, Leertaste halten</translation>
+    </message>
+    <message>
+        <source>arm: hold the key or the button down for a second</source>
+        <translation>scharf machen: die Taste oder den Knopf eine Sekunde gedrückt halten</translation>
+    </message>
+    <message>
+        <source>Arming</source>
+        <translation>Schärfen</translation>
+    </message>
+    <message>
+        <source>absent</source>
+        <translation>fehlt</translation>
+    </message>
+    <message>
+        <source>fault</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>pilot</source>
+        <translation>Pilot</translation>
+    </message>
+    <message>
+        <source>bench</source>
+        <translation>Prüfstand</translation>
+    </message>
+    <message>
+        <source>uncal.</source>
+        <translation>unkal.</translation>
+    </message>
+    <message>
+        <source>ready</source>
+        <translation>bereit</translation>
+    </message>
+    <message>
+        <source>Radio</source>
+        <translation>Sender</translation>
+    </message>
+    <message>
+        <source>The transmitter, from what it last said</source>
+        <translation>Der Sender, nach dem, was er zuletzt sagte</translation>
+    </message>
+    <message>
+        <source>Hold it down for a second: then the rotors may turn</source>
+        <translation>Eine Sekunde lang gedrückt halten: dann dürfen die Rotoren drehen</translation>
+    </message>
+    <message>
+        <source>Hold</source>
+        <translation>Halten</translation>
+    </message>
+    <message>
+        <source>Stay where it is; again: fly on</source>
+        <translation>Bleiben, wo er ist; nochmals: weiterfliegen</translation>
+    </message>
+    <message>
+        <source>Forbid the rotors to turn</source>
+        <translation>Den Rotoren verbieten zu drehen</translation>
+    </message>
+    <message>
+        <source>Fly on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>frozen by the operator: it learns no more</source>
+        <translation>eingefroren: sie lernt nicht weiter</translation>
+    </message>
+    <message>
+        <source>learns on</source>
+        <translation>lernt weiter</translation>
+    </message>
+    <message>
+        <source>accepted by the operator</source>
+        <translation>von Hand übernommen</translation>
+    </message>
+    <message>
+        <source>believed to stand where the rig file says</source>
+        <translation>gilt als da stehend, wo die Aufbaudatei sagt</translation>
+    </message>
+    <message>
+        <source>believed to stand where the loaded calibration says</source>
+        <translation>gilt als da stehend, wo die geladene Kalibrierung sagt</translation>
+    </message>
+    <message>
+        <source>order refused:</source>
+        <translation>nicht ausgeführt:</translation>
+    </message>
+    <message>
+        <source>Not armed:</source>
+        <translation>Nicht scharf:</translation>
+    </message>
+    <message>
+        <source>it does not learn</source>
+        <translation>sie lernt nicht</translation>
+    </message>
+    <message>
+        <source>it does not know its place, or disagrees</source>
+        <translation>sie weiß nicht, wo sie steht, oder widerspricht</translation>
+    </message>
+    <message>
+        <source>the rig file does not say where it stands</source>
+        <translation>die Aufbaudatei sagt nicht, wo sie steht</translation>
+    </message>
+    <message>
+        <source>Position, %1</source>
+        <translation>Ort, %1</translation>
+    </message>
+    <message>
+        <source>Orientation, %1</source>
+        <translation>Ausrichtung, %1</translation>
+    </message>
+    <message>
+        <source>Accept</source>
+        <translation>Annehmen</translation>
+    </message>
+    <message>
+        <source>Accept what %1 has learnt</source>
+        <translation>Annehmen, was %1 gelernt hat</translation>
+    </message>
+    <message>
+        <source>%1 helps the pose from now on, with what it knows, before the rule lets it</source>
+        <translation>%1 hilft ab jetzt der Pose mit dem, was sie weiß, ehe die Regel sie zulässt</translation>
+    </message>
+    <message>
+        <source>Freeze</source>
+        <translation>Halten</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Resume learning</source>
+        <translation>Weiter lernen</translation>
+    </message>
+    <message>
+        <source>Freeze what is known</source>
+        <translation>Festhalten, was bekannt ist</translation>
+    </message>
+    <message>
+        <source>Learn on from what it knows</source>
+        <translation>Lernt weiter von dem aus, was sie weiß</translation>
+    </message>
+    <message>
+        <source>Learn no more; a knock takes it out of the control set all the same</source>
+        <translation>Lernt nicht weiter; ein Stoß nimmt sie trotzdem aus der Regelung</translation>
+    </message>
+    <message>
+        <source>Rig file</source>
+        <translation>Aufbau</translation>
+    </message>
+    <message>
+        <source>Put %1 where the rig file says</source>
+        <translation>%1 dahin setzen, wo die Aufbaudatei sagt</translation>
+    </message>
+    <message>
+        <source>Believe that %1 stands where the rig file says</source>
+        <translation>Glauben, dass %1 da steht, wo die Aufbaudatei sagt</translation>
+    </message>
+    <message>
+        <source>%1, frozen</source>
+        <translation>%1, gehalten</translation>
+    </message>
+    <message>
+        <source>Load…</source>
+        <translation>Laden…</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Sichern…</translation>
+    </message>
+    <message>
+        <source>Load a calibration</source>
+        <translation>Eine Kalibrierung laden</translation>
+    </message>
+    <message>
+        <source>Save the calibration</source>
+        <translation>Die Kalibrierung sichern</translation>
+    </message>
+    <message>
+        <source>Every camera that a saved calibration names is believed to stand where it says</source>
+        <translation>Jede Kamera, die eine gesicherte Kalibrierung nennt, gilt als da stehend, wo diese sagt</translation>
+    </message>
+    <message>
+        <source>Where the cameras of the control set stand, with their uncertainty, to a file</source>
+        <translation>Wo die Kameras der Regelung stehen, mit ihrer Unsicherheit, in eine Datei</translation>
+    </message>
+    <message>
+        <source>All places</source>
+        <translation>Alle Orte</translation>
+    </message>
+    <message>
+        <source>Not ordered</source>
+        <translation>Nicht befohlen</translation>
+    </message>
+    <message>
+        <source>The engine is still busy with earlier orders. Try again.</source>
+        <translation>Das Programm ist noch mit früheren Befehlen beschäftigt. Noch einmal versuchen.</translation>
+    </message>
+    <message>
+        <source>Calibrations (*.toml)</source>
+        <translation>Kalibrierungen (*.toml)</translation>
+    </message>
+    <message>
+        <source>Calibration not loaded</source>
+        <translation>Kalibrierung nicht geladen</translation>
+    </message>
+    <message>
+        <source>Calibration not saved</source>
+        <translation>Kalibrierung nicht gesichert</translation>
+    </message>
+    <message>
+        <source>Manual</source>
+        <translation>Handbuch</translation>
+    </message>
+    <message>
+        <source>Text of the manual</source>
+        <translation>Text des Handbuchs</translation>
+    </message>
+    <message>
+        <source>Arrow keys and Page up, Page down scroll</source>
+        <translation>Pfeiltasten und Bild auf, Bild ab blättern</translation>
+    </message>
+    <message>
+        <source>The manual is missing: %1</source>
+        <translation>Das Handbuch fehlt: %1</translation>
+    </message>
+    <message>
+        <source>Ctrl+F1</source>
+        <translation>Strg+F1</translation>
+    </message>
+    <message>
+        <source>the manual</source>
+        <translation>das Handbuch</translation>
+    </message>
+    <message>
+        <source>EXP %1 ms</source>
+        <translation>BEL %1 ms</translation>
+    </message>
+    <message>
+        <source>GAIN %1 dB</source>
+        <translation>VERST %1 dB</translation>
+    </message>
+    <message>
+        <source>Searching labels</source>
+        <translation>Sucht die Namen</translation>
+    </message>
+    <message>
+        <source>Converging</source>
+        <translation>Nähert sich an</translation>
+    </message>
+    <message>
+        <source>Knocked</source>
+        <translation>Angestoßen</translation>
+    </message>
+    <message>
+        <source>Armed</source>
+        <translation>Scharf</translation>
+    </message>
+    <message>
+        <source>solved for together with all others</source>
+        <translation>wird mit allen anderen zusammen bestimmt</translation>
     </message>
 </context>
 </TS>

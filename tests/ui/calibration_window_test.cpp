@@ -1,11 +1,18 @@
 #include <QAction>
 #include <QComboBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QTemporaryDir>
 #include <QToolButton>
 
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
+#include "engine/geometry/camera_perturbation.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/calibration_panel.h"
+#include "ui/calibration_row.h"
 #include "ui/camera_pane.h"
 #include "ui/camera_tools.h"
 #include "ui/camera_wall.h"
@@ -35,6 +42,21 @@ class CalibrationWindow : public WindowTest {
     ASSERT_GE(index, 0) << name.toStdString();
     list->setCurrentIndex(index);
     Q_EMIT list->textActivated(name);
+  }
+  const CalibrationRow& row() const { return window_->calibration().row(2); }
+  /// As somebody does who types a name into the dialog that has opened, and presses Enter.
+  void answerFileDialog(const QString& file) {
+    QFileDialog* dialog = nullptr;
+    ASSERT_TRUE(eventually([&] {
+      dialog = window_->findChild<QFileDialog*>();
+      return dialog != nullptr && dialog->isVisible();
+    }));
+    EXPECT_FALSE(dialog->isModal()) << "STOP must stay in reach of the mouse";
+    auto* name = dialog->findChild<QLineEdit*>();
+    ASSERT_NE(name, nullptr);
+    name->setText(file);
+    QTest::keyClick(name, Qt::Key_Return);
+    ASSERT_TRUE(eventually([this] { return window_->findChild<QFileDialog*>() == nullptr; }));
   }
   bool announced(const QString& text) {
     return eventually([&] {
@@ -99,10 +121,8 @@ TEST_F(CalibrationWindow, FliesOnTheNewCameraWithCameraTwoHidden) {
 TEST_F(CalibrationWindow, RestartForgetsWhatWasLearnt) {
   open(calibratingRig(false));
   ASSERT_TRUE(admitted());
-  QToolButton* restart = nullptr;
-  for (QToolButton* button : window_->calibration().findChildren<QToolButton*>())
-    if (button->isVisible()) restart = button;
-  ASSERT_NE(restart, nullptr);
+  QToolButton* restart = row().restartButton();
+  ASSERT_TRUE(restart->isVisible());
   // The teacher is covered: what was forgotten cannot be learnt again.
   click(window_->cameras().pane(0).hideButton());
   ASSERT_TRUE(eventually([this] { return window_->cameras().pane(0).cameraHidden(); }));
@@ -111,6 +131,103 @@ TEST_F(CalibrationWindow, RestartForgetsWhatWasLearnt) {
   EXPECT_TRUE(announced("Camera 3: calibrates anew by particle-filter"));
   click(window_->cameras().pane(0).hideButton());
   EXPECT_TRUE(admitted());
+}
+
+TEST_F(CalibrationWindow, CameraThreeIsKnockedInFlightAndFindsItsNewPlace) {
+  open(calibratingRig(false));
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  ASSERT_TRUE(admitted());
+  ASSERT_TRUE(eventually([this] { return usesCamera(2); }));
+  QAction* knock = nullptr;
+  for (QAction* action : window_->cameras().pane(2).tools().disturbances())
+    if (action->text().contains("10 deg")) knock = action;
+  ASSERT_NE(knock, nullptr);
+  knock->trigger();
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[2].knocks_found > 0; }));
+  EXPECT_TRUE(admitted()) << "its new place";
+  EXPECT_TRUE(eventually([this] { return usesCamera(2); }));
+  const CameraSnapshot& camera = snapshot().cameras[2];
+  EXPECT_LT(cameraPerturbation(camera.true_camera_from_world, camera.estimate.camera_from_world).tail<3>().norm(),
+            0.05);
+  EXPECT_EQ(snapshot().phase, FlightPhase::kFlying);
+}
+
+TEST_F(CalibrationWindow, FrozenItLearnsNoMoreUntilResumed) {
+  open(calibratingRig(false));
+  ASSERT_TRUE(admitted());
+  click(row().freezeButton());
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[2].frozen; }));
+  EXPECT_TRUE(announced("Camera 3: frozen by the operator"));
+  ASSERT_TRUE(eventually([this] { return row().freezeButton()->text() == "Resume"; }));
+  EXPECT_EQ(row().state(), "Calibrated, frozen");
+  const Eigen::Vector3d before = snapshot().cameras[2].estimate.camera_from_world.translation;
+  const std::uint64_t tick = snapshot().tick;
+  ASSERT_TRUE(eventually([&] { return snapshot().tick > tick + 60; }));
+  EXPECT_EQ(snapshot().cameras[2].estimate.camera_from_world.translation, before);
+  click(row().freezeButton());
+  EXPECT_TRUE(eventually([this] { return !snapshot().cameras[2].frozen; }));
+  EXPECT_TRUE(announced("Camera 3: learns on"));
+  EXPECT_TRUE(eventually(
+      [&] { return snapshot().cameras[2].estimate.camera_from_world.translation != before; }));
+}
+
+TEST_F(CalibrationWindow, ACameraThatKnowsNothingIsNotAcceptedAndItIsSaidWhy) {
+  open(shippedRig(false));  // camera 3 without even a guess
+  // What it had learnt by now is forgotten, and without the others it cannot learn it again.
+  for (const int camera : {0, 1}) click(window_->cameras().pane(camera).hideButton());
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[0].hidden && snapshot().cameras[1].hidden; }));
+  click(row().restartButton());
+  ASSERT_TRUE(announced("Camera 3: calibrates anew"));
+  ASSERT_NE(status(), CameraStatus::kCalibrated);
+  ASSERT_TRUE(eventually([this] { return row().acceptButton()->isEnabled(); }));
+  click(row().acceptButton());
+  EXPECT_TRUE(announced("Camera 3: order refused: it does not know its place"));
+  EXPECT_NE(status(), CameraStatus::kCalibrated);
+}
+
+TEST_F(CalibrationWindow, PlacesAreSavedAndLoaded) {
+  QTemporaryDir folder;
+  const QString file = folder.filePath("places.toml");
+  open(calibratingRig(false));
+  ASSERT_TRUE(admitted());
+  click(row().freezeButton());  // so that what is saved stays so
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[2].frozen; }));
+  const Eigen::Vector3d learnt = snapshot().cameras[2].estimate.camera_from_world.translation;
+  click(window_->calibration().saveButton());
+  ASSERT_NO_FATAL_FAILURE(answerFileDialog(file));
+  ASSERT_TRUE(eventually([&] { return QFile::exists(file); }));
+  ASSERT_TRUE(eventually([this] { return row().freezeButton()->text() == "Resume"; }));
+  click(row().freezeButton());
+  ASSERT_TRUE(eventually([this] { return !snapshot().cameras[2].frozen; }));
+  // Forgotten, and without a teacher to learn it from again.
+  click(window_->cameras().pane(0).hideButton());
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[0].hidden; }));
+  click(row().restartButton());
+  ASSERT_TRUE(eventually([this] { return status() == CameraStatus::kCalibrating; }));
+
+  click(window_->calibration().loadButton());
+  ASSERT_NO_FATAL_FAILURE(answerFileDialog(file));
+  EXPECT_TRUE(admitted());
+  EXPECT_TRUE(announced("Camera 3: believed to stand where the loaded calibration says"));
+  EXPECT_LT((snapshot().cameras[2].estimate.camera_from_world.translation - learnt).norm(), 1e-9);
+}
+
+TEST_F(CalibrationWindow, AFileThatIsNoCalibrationChangesNothingAndIsSaidToBeNone) {
+  QTemporaryDir folder;
+  const QString file = folder.filePath("none.toml");
+  QFile none(file);
+  ASSERT_TRUE(none.open(QIODevice::WriteOnly));
+  none.write("colour = 3\n");
+  none.close();
+  open(calibratingRig(false));
+  ASSERT_TRUE(eventually([this] { return snapshot().tick > 0; }));
+  click(window_->calibration().loadButton());
+  ASSERT_NO_FATAL_FAILURE(answerFileDialog(file));
+  EXPECT_TRUE(eventually([this] {
+    const auto* notice = window_->findChild<QMessageBox*>();
+    return notice != nullptr && notice->windowTitle() == "Calibration not loaded";
+  }));
+  EXPECT_FALSE(window_->findChild<QMessageBox*>()->isModal());
 }
 
 TEST_F(CalibrationWindow, ARigWithKnownPlacesHasNothingToChooseUntilACameraIsKnocked) {

@@ -34,6 +34,15 @@ TEST(StatusWords, NotReadyWhileTheAutopilotWouldRefuse) {
   EXPECT_EQ(readinessWord(snapshot).text, "Not ready");
 }
 
+TEST(StatusWords, ReadyMeansThatItCouldBeArmed) {
+  EngineSnapshot snapshot = snapshotOf(FlightPhase::kIdle, SafetyState::kNormal, true);
+  snapshot.failing_checks = static_cast<std::uint32_t>(PreArmCheck::kFrameRate);
+  EXPECT_EQ(readinessWord(snapshot).text, "Not ready");
+  snapshot.failing_checks = 0;
+  snapshot.armed = true;
+  EXPECT_EQ(readinessWord(snapshot).text, "Armed");
+}
+
 TEST(StatusWords, RedIsDangerAndNothingElse) {
   for (int phase = 0; phase <= static_cast<int>(FlightPhase::kOff); ++phase)
     for (int safety = 0; safety <= static_cast<int>(SafetyState::kCut); ++safety) {
@@ -72,7 +81,11 @@ TEST(StatusWords, ACameraThatNobodyTeachesSaysSo) {
   for (auto& camera : snapshot.cameras) camera.track.exposure = snapshot.time;
   snapshot.cameras[0].track.selected_count = snapshot.cameras[1].track.selected_count = 4;
   snapshot.cameras[2].estimate.status = CameraStatus::kCalibrating;
-  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Calibrating");
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Converging");
+  snapshot.cameras[2].estimate.status = CameraStatus::kRejected;
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Knocked");
+  snapshot.cameras[2].estimate.status = CameraStatus::kUncalibrated;
+  EXPECT_EQ(calibrationWord(snapshot, 2).text, "Searching labels");
   snapshot.cameras[1].track.selected_count = 0;
   EXPECT_EQ(calibrationWord(snapshot, 2).text, "Needs two others");
   snapshot.cameras[2].hidden = true;

@@ -14,7 +14,7 @@ LITERALS = r'(?:%s\s*)+' % LITERAL
 CALLS = re.compile(r'\b(?:(?:tr|QT_TR_NOOP)\(\s*|(?:translate|QT_TRANSLATE_NOOP)\(\s*"[\w:]+"\s*,\s*)(%s)\s*[,)]' % LITERALS)
 # Where the engine's words for people are, and what of them is none.
 ENGINE = ["engine/pipeline/announcer.cpp", "engine/flight/autopilot.cpp", "engine/pipeline/engine.cpp",
-          "engine/flight/flight_state.cpp"]
+          "engine/flight/flight_state.cpp", "engine/pipeline/control_set.cpp"]
 NO_TEXT = re.compile(r'^[^a-zA-Z]*$|^%s|%s|\.h$|^engine/|^[a-z_-]+$')
 
 
@@ -41,8 +41,8 @@ def engine_texts(tree):
         for statement in re.findall(r'(?:raise|raise_if|event|return|snprintf|throw Error)\b(?:[^;"]|"(?:[^"\\]|\\.)*")*;', text):
             for match in re.finditer(LITERALS, statement):
                 value = joined(match.group(0))
-                if value == "Take-off refused: %s":
-                    value = "Take-off refused:"
+                if value.endswith(": %s"):
+                    value = value.removesuffix(" %s")
                 if value == "calibrates anew by %s":
                     value = "calibrates anew by "
                 if not NO_TEXT.search(value):

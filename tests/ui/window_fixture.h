@@ -21,6 +21,7 @@ class WindowTest : public testing::Test {
   void TearDown() override;
 
   static RigConfig shippedRig(bool images);
+  static FlightPlan hoverWithoutEnd();  ///< lands when the test says so
   /// Camera 3 has a first guess and finds its place in flight.
   static RigConfig calibratingRig(bool images);
   static bool eventually(const std::function<bool()>& condition) {

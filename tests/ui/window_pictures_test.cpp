@@ -1,18 +1,24 @@
 #include <Eigen/Geometry>
 #include <QDir>
+#include <QDockWidget>
 #include <QPushButton>
 #include <QSet>
 #include <QToolButton>
 #include <cmath>
 
+#include "engine/config/resource_files.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/alarm_bar.h"
 #include "ui/camera_pane.h"
+#include "ui/camera_tools.h"
 #include "ui/camera_view.h"
 #include "ui/camera_wall.h"
+#include "ui/catalogue.h"
+#include "ui/hold_button.h"
 #include "ui/plot_deck.h"
 #include "ui/preflight_popup.h"
 #include "ui/scene_view.h"
+#include "ui/theme.h"
 #include "ui/top_bar.h"
 
 namespace helical {
@@ -89,6 +95,58 @@ TEST_F(WindowPictures, ACameraThatLearnsABoardAndAnAlarm) {
   ASSERT_TRUE(eventually([this] { return window_->alarms().unacknowledged() > 0; }));
   ASSERT_NO_FATAL_FAILURE(waitForScene());
   save("alarm");
+}
+
+TEST_F(WindowPictures, PanelsLayoutsMasksAndTheLightTheme) {
+  open(calibratingRig(true));
+  ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
+  ASSERT_TRUE(eventually([this] { return snapshot().hovering; }));
+  window_->findChild<QDockWidget*>("Plan")->raise();
+  ASSERT_NO_FATAL_FAILURE(clickView("Iso view"));
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("plan");
+  window_->findChild<QDockWidget*>("Gains")->raise();
+  const auto showMasks = [this](bool shown) {
+    for (QAction* action : window_->cameras().pane(0).tools().actions())
+      if (action->text().contains("mask")) action->setChecked(shown);
+  };
+  showMasks(true);
+  window_->plots().showSheet(PlotDeck::kLatency);
+  window_->scene().lookThrough(cameraId(1));
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("gains_masks_latency");
+  showMasks(false);
+
+  window_->arrange(DockLayouts::Layout::kCalibrate);
+  for (QAction* action : window_->cameras().pane(0).tools().disturbances())
+    if (action->text().contains("10 deg")) action->trigger();
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[0].knocks_found > 0; }));
+  ASSERT_NO_FATAL_FAILURE(clickView("Iso view"));
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("knocked_camera");
+
+  theme::apply(*qApp, theme::Theme::kLight);
+  window_->arrange(DockLayouts::Layout::kFly);
+  window_->plots().showSheet(PlotDeck::kFlight);
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  save("light_theme");
+  EXPECT_GT(window_->grab().toImage().pixelColor(5, window_->height() - 8).lightness(), 180);
+  theme::apply(*qApp, theme::Theme::kDark);
+}
+
+TEST_F(WindowPictures, German) {
+  Catalogue catalogue;
+  ASSERT_TRUE(
+      catalogue.loadFor({"de"}, QString::fromStdString((resourceFolder() / "translations").string())));
+  QCoreApplication::installTranslator(&catalogue);
+  open(true);
+  ASSERT_TRUE(eventually([this] { return snapshot().pose_known; }));
+  ASSERT_NO_FATAL_FAILURE(waitForScene());
+  EXPECT_EQ(window_->topBar().takeOffButton()->text(), "Starten");
+  save("german");
+  window_->detach();
+  window_.reset();
+  QCoreApplication::removeTranslator(&catalogue);
 }
 
 TEST_F(WindowPictures, SixteenCamerasWithoutImages) {

@@ -5,6 +5,9 @@
 #include "app/bench_markers.h"
 #include "app/bench_particles.h"
 #include "app/bench_session.h"
+#ifdef HELICAL_HAS_WINDOW
+#include "app/bench_pipeline.h"
+#endif
 
 namespace {
 
@@ -18,6 +21,9 @@ int main(int argc, char** argv) {
   helical::addMarkersBench(app);
   helical::addParticlesBench(app);
   helical::addSessionBench(app);
+#ifdef HELICAL_HAS_WINDOW
+  helical::addPipelineBench(app);
+#endif
   app.require_subcommand(1);
   try {
     app.parse(argc, argv);

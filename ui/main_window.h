@@ -54,6 +54,8 @@ class MainWindow : public QMainWindow {
   void attach(Engine& engine);
   /// A recorded flight, which can be looked at alone.
   void attach(FlightPlayback& playback);
+  /// Looks on, without anything to command; `attach` begins with it.
+  void watch(FlightView& view);
   void detach();
 
   /// Fills the screen up to 1920x1080.
@@ -64,6 +66,9 @@ class MainWindow : public QMainWindow {
 
   /// From the start of the process to the first camera picture on the screen.
   std::optional<TimeNs> firstImageNs() const { return first_image_; }
+
+  /// How often it has looked at the engine, and shown what has come.
+  std::uint64_t refreshes() const { return ticks_; }
 
   CameraWall& cameras() const { return *cameras_; }
   SceneView& scene() const { return *scene_; }
@@ -103,7 +108,6 @@ class MainWindow : public QMainWindow {
   void buildMenus();
   void buildStatusBar();
 
-  void watch(FlightView& view);
   void openManual();
   void chooseSession();
   void chooseExport();

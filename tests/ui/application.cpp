@@ -11,6 +11,9 @@ namespace {
 class Application : public testing::Environment {
  public:
   void SetUp() override {
+#ifdef HELICAL_TEST_SCALE
+    qputenv("QT_SCALE_FACTOR", HELICAL_TEST_SCALE);
+#endif
     static int argc = 1;
     static char name[] = "test_ui_window";
     static char* argv[] = {name, nullptr};

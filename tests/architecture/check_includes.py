@@ -19,7 +19,7 @@ HEADER_THIRD_PARTY = re.compile(r"^Eigen/")
 
 # The engine as the window knows it: the facade and value types.
 UI_MAY_INCLUDE = re.compile(
-    r"^(engine/pipeline/(engine|flight_view|snapshot|white_board)\.h"
+    r"^(engine/pipeline/(calibration_order|engine|flight_view|snapshot|white_board)\.h"
     r"|engine/config/\w+\.h"
     r"|engine/flight/(controller_options|flight_change|flight_plan|flight_state)\.h"
     r"|engine/(base|geometry|helicopter)/\w+\.h"

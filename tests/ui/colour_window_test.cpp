@@ -43,8 +43,11 @@ TEST_F(ColourWindow, AClickOnABallProposesItsColourApplyFindsItUndoGoesBack) {
   ColourEditor& editor = window_->colourTool().editor();
   ASSERT_TRUE(editor.isVisible());
   EXPECT_FALSE(editor.applyButton()->isEnabled()) << "nothing to apply yet";
-  QTest::mouseClick(&view(0), Qt::LeftButton, {}, onBall(0));
-  ASSERT_NE(editor.range(), before);
+  // The picture may still be one from before the helicopter came: numbers arrive sooner than pictures.
+  ASSERT_TRUE(eventually([&] {
+    QTest::mouseClick(&view(0), Qt::LeftButton, {}, onBall(0));
+    return editor.range() != before;
+  }));
   EXPECT_TRUE(view(1).masks().colour) << "previewed in every picture";
   EXPECT_EQ(view(1).masks().range, editor.range());
   EXPECT_EQ(engine_->markerColour(), before) << "not before Apply";

@@ -1,6 +1,8 @@
 // An hour of supervision must not cost more memory than a minute.
 
 #include <QTest>
+#include <algorithm>
+#include <limits>
 
 #include "tests/ui/hurried_flight.h"
 #include "tests/ui/memory.h"
@@ -31,13 +33,21 @@ TEST_F(Memory, ThreeMinutesOfFlightCostLessThanAMegabyteEach) {
   const auto flyTo = [&](double seconds) {
     return eventually([&] { return toSeconds(flight.snapshot().time) >= seconds; });
   };
-  ASSERT_TRUE(flyTo(40.0)) << "until every part of the window has been drawn";
+  // The least of several looks: one more or less of the pictures on their way to the screen is 3 MB.
+  const auto leastFrom = [&](double seconds) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int look = 0; look < 8; ++look) {
+      EXPECT_TRUE(flyTo(seconds + 3.0 * look));
+      least = std::min(least, ownMemoryMb());
+    }
+    return least;
+  };
+  const double before = leastFrom(40.0);  // when every part of the window has been drawn
   ASSERT_EQ(flight.snapshot().phase, FlightPhase::kFlying);
-  const double before = ownMemoryMb();
   ASSERT_GT(before, 20.0);
-  ASSERT_TRUE(flyTo(220.0));
+  const double after = leastFrom(220.0);
   EXPECT_EQ(flight.snapshot().phase, FlightPhase::kFlying);
-  EXPECT_LT(ownMemoryMb() - before, 3.0 * kMbAMinute);
+  EXPECT_LT(after - before, 3.0 * kMbAMinute);
   window_->detach();
   window_.reset();
 }

@@ -34,7 +34,7 @@ SessionSummary record(const std::filesystem::path& file, std::uint64_t seed, int
     LockStep flight(settings.rig, settings.plan, &recorder);
     for (int i = 0; i < ticks; ++i) {
       OperatorCommands commands;
-      commands.arm = commands.take_off = i == 60 + delay;
+      commands.arm = commands.take_off = i == 120 + delay;
       flight.tick(commands);
     }
   }

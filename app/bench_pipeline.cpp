@@ -17,6 +17,7 @@
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
+#include "engine/experiments/statistics.h"
 #include "engine/pipeline/engine.h"
 #include "ui/camera_pane.h"
 #include "ui/camera_view.h"
@@ -60,12 +61,6 @@ struct Counts {
   double pictures;
   double scenes;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 FlightPlan longHover() {
   FlightPlan plan = loadPlan(planPath("hover"));
@@ -183,7 +178,7 @@ template <class Value>
 double medianOf(const std::vector<Block>& blocks, Value Block::*value) {
   std::vector<double> values;
   for (const Block& block : blocks) values.push_back(static_cast<double>(block.*value));
-  return median(values);
+  return quantile(values, 0.5);
 }
 
 nlohmann::ordered_json summary(const std::vector<Block>& blocks) {

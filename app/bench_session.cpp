@@ -18,6 +18,7 @@
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
 #include "engine/config/text_file.h"
+#include "engine/experiments/statistics.h"
 #include "engine/pipeline/lock_step.h"
 #include "engine/session/flight_playback.h"
 #include "engine/session/recorder.h"
@@ -47,12 +48,6 @@ SessionSettings hover(bool images) {
   settings.realtime = images;
   if (images) settings.images.assign(settings.rig.cameras.size(), {ImageQuality::kLossless, 0.0});
   return settings;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// One way of flying, in all of its blocks.

@@ -36,14 +36,9 @@ struct Arguments {
 
 std::vector<SessionSummary> readSessions(const std::vector<std::string>& files) {
   Progress progress("Reading " + std::to_string(files.size()) + " sessions");
-  std::vector<SessionSummary> summaries;
-  for (const auto& file : files) {
-    McapReader session(file);
-    const auto before = static_cast<double>(summaries.size()), all = static_cast<double>(files.size());
-    summaries.push_back(summarize(session, [&](double done) { progress.update((before + done) / all); }));
-    if (!summaries.back().complete)
-      log(LogLevel::kWarning, file + " was cut off: compared as far as it goes");
-  }
+  auto summaries = summarizeAll(files, [&](double done) { progress.update(done); });
+  for (const SessionSummary& summary : summaries)
+    if (!summary.complete) log(LogLevel::kWarning, summary.file + " was cut off: compared as far as it goes");
   return summaries;
 }
 

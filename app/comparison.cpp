@@ -40,17 +40,13 @@ void Comparison::read(const std::vector<std::string>& sessions) {
   std::vector<SessionSummary> summaries;
   QString failure;
   try {
-    for (const auto& file : sessions) {
-      McapReader session(file);
-      const auto before = static_cast<double>(summaries.size()), all = static_cast<double>(sessions.size());
-      summaries.push_back(summarize(session, [&](double done) {
-        if (cancelled_) throw ExportCancelled();
-        const int step = static_cast<int>(kBarSteps * (before + done) / all);
-        QMetaObject::invokeMethod(&here_, [this, step] {
-          if (bar_ && !cancelled_) bar_->setValue(step);
-        });
-      }));
-    }
+    summaries = summarizeAll(sessions, [&](double done) {
+      if (cancelled_) throw ExportCancelled();
+      const int step = static_cast<int>(kBarSteps * done);
+      QMetaObject::invokeMethod(&here_, [this, step] {
+        if (bar_ && !cancelled_) bar_->setValue(step);
+      });
+    });
   } catch (const ExportCancelled&) {
     summaries.clear();
   } catch (const std::exception& error) {

@@ -52,7 +52,7 @@ install_packages() {
       "install what app/packages.txt lists and build with: cmake --preset release && cmake --build --preset release"
   while read -r entry; do
     [[ $entry == *=* ]] && command -v "${entry#*=}" >/dev/null || wanted+=("${entry%%=*}")
-  done < <(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d' | sort -u)
+  done < <(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d')
   mapfile -t missing < <(comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) \
     <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
       sed -n 's/^installed //p' | sort -u))

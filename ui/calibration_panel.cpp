@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "ui/calibration_row.h"
+#include "ui/small_button.h"
 #include "ui/theme.h"
 
 namespace helical {
@@ -22,18 +23,6 @@ QLabel* makeLabel(const QString& text) {
   palette.setColor(QPalette::WindowText, theme::kMuted);
   label->setPalette(palette);
   return label;
-}
-
-QToolButton* makeButton(const QString& text, const QString& name, const QString& tip) {
-  auto* button = new QToolButton;
-  button->setObjectName(QStringLiteral("small"));
-  button->setText(text);
-  button->setFont(theme::uiFont(8, QFont::Medium));
-  button->setFixedHeight(19);
-  button->setFocusPolicy(Qt::TabFocus);
-  button->setAccessibleName(name);
-  button->setToolTip(tip);
-  return button;
 }
 
 /// A list that the mouse wheel does not turn: whoever scrolls past must not throw cameras out of the control
@@ -87,9 +76,9 @@ QHBoxLayout* CalibrationPanel::buildMethods(const RigConfig& rig, const std::vec
 }
 
 QHBoxLayout* CalibrationPanel::buildFiles() {
-  load_ = makeButton(tr("Load\u2026"), tr("Load a calibration"),
+  load_ = smallButton(tr("Load\u2026"), tr("Load a calibration"),
                      tr("Every camera that a saved calibration names is believed to stand where it says"));
-  save_ = makeButton(tr("Save\u2026"), tr("Save the calibration"),
+  save_ = smallButton(tr("Save\u2026"), tr("Save the calibration"),
                      tr("Where the cameras of the control set stand, with their uncertainty, to a file"));
   connect(load_, &QToolButton::clicked, this, &CalibrationPanel::loadRequested);
   connect(save_, &QToolButton::clicked, this, &CalibrationPanel::saveRequested);

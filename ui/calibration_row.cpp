@@ -10,6 +10,7 @@
 #include "engine/geometry/rotation.h"
 #include "ui/format.h"
 #include "ui/heat_maps.h"
+#include "ui/small_button.h"
 #include "ui/status_words.h"
 #include "ui/theme.h"
 
@@ -46,16 +47,9 @@ QString magnitude(double value) {
   return plainNumber(value, value < 0.1 ? 3 : value < 10.0 ? 2 : value < 100.0 ? 1 : 0);
 }
 
-QToolButton* makeButton(const QString& text, const QString& name, const QString& tip) {
-  auto* button = new QToolButton;
-  button->setObjectName(QStringLiteral("small"));
-  button->setText(text);
-  button->setFont(theme::uiFont(8, QFont::Medium));
-  button->setFixedHeight(19);
+QToolButton* wideButton(const QString& text, const QString& name, const QString& tip) {
+  QToolButton* button = smallButton(text, name, tip);
   button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  button->setFocusPolicy(Qt::TabFocus);
-  button->setAccessibleName(name);
-  button->setToolTip(tip);
   return button;
 }
 
@@ -101,12 +95,12 @@ CalibrationRow::CalibrationRow(const CameraConfig& config, int camera, QWidget* 
 }
 
 QWidget* CalibrationRow::buildButtons(const CameraConfig& config, const QString& name) {
-  accept_ = makeButton(tr("Accept"), tr("Accept what %1 has learnt").arg(name),
+  accept_ = wideButton(tr("Accept"), tr("Accept what %1 has learnt").arg(name),
                        tr("%1 helps the pose from now on, with what it knows, before the rule lets it").arg(name));
-  freeze_ = makeButton(tr("Freeze"), {}, {});
-  restart_ = makeButton(tr("Restart"), tr("Restart the calibration of %1").arg(name),
+  freeze_ = wideButton(tr("Freeze"), {}, {});
+  restart_ = wideButton(tr("Restart"), tr("Restart the calibration of %1").arg(name),
                         tr("Forget what %1 has learnt and begin again from its first guess").arg(name));
-  rig_ = makeButton(tr("Rig file"), tr("Put %1 where the rig file says").arg(name),
+  rig_ = wideButton(tr("Rig file"), tr("Put %1 where the rig file says").arg(name),
                     tr("Believe that %1 stands where the rig file says").arg(name));
   rig_->setVisible(config.camera_from_world.has_value() && !config.learns());
   connect(accept_, &QToolButton::clicked, this,

@@ -9,7 +9,7 @@
 #include "ui/latency_plot.h"
 #include "ui/panel_title.h"
 #include "ui/plot_page.h"
-#include "ui/theme.h"
+#include "ui/small_button.h"
 #include "ui/time_plots.h"
 
 namespace helical {
@@ -45,11 +45,7 @@ void PlotDeck::addSheet(QWidget* sheet, const QString& name, const QString& tip)
 
 void PlotDeck::addControls(PanelTitle& title) {
   const auto add = [&title](QToolButton* button, const QString& name) {
-    button->setObjectName(QStringLiteral("small"));
-    button->setFont(theme::uiFont(8, QFont::Medium));
-    button->setFixedHeight(19);
-    button->setFocusPolicy(Qt::TabFocus);
-    button->setAccessibleName(name);
+    makeSmall(*button, name);
     title.addWidget(button);
   };
   for (QAction* action : choice_->actions()) {

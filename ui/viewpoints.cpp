@@ -10,23 +10,9 @@
 #include "ui/orbit_view.h"
 #include "ui/panel_title.h"
 #include "ui/scene_view.h"
-#include "ui/theme.h"
+#include "ui/small_button.h"
 
 namespace helical {
-namespace {
-
-QToolButton* makeButton(const QString& accessible_name) {
-  auto* button = new QToolButton;
-  button->setObjectName(QStringLiteral("small"));
-  button->setFont(theme::uiFont(8, QFont::Medium));
-  button->setFixedHeight(19);
-  button->setFocusPolicy(Qt::TabFocus);
-  button->setAccessibleName(accessible_name);
-  return button;
-}
-
-}  // namespace
-
 Viewpoints::Viewpoints(const RigConfig& rig, SceneView& scene, QObject* parent)
     : QObject(parent), scene_(scene), group_(new QActionGroup(this)) {
   const std::array<std::pair<QString, QString>, 3> names{
@@ -59,14 +45,13 @@ void Viewpoints::lookFromTheSide() {
 
 void Viewpoints::addButtons(PanelTitle& title) const {
   for (QAction* action : standing_) {
-    QToolButton* button = makeButton(tr("%1 view").arg(action->text()));
+    QToolButton* button = smallButton({}, tr("%1 view").arg(action->text()), {});
     button->setDefaultAction(action);
     title.addWidget(button);
   }
-  QToolButton* through = makeButton(tr("View through a camera"));
-  through->setText(tr("Camera"));
+  QToolButton* through = smallButton(tr("Camera"), tr("View through a camera"),
+                                     tr("Through a camera, from where it is believed to stand"));
   through->setPopupMode(QToolButton::InstantPopup);
-  through->setToolTip(tr("Through a camera, from where it is believed to stand"));
   auto* menu = new QMenu(through);
   menu->addActions(through_);
   through->setMenu(menu);

@@ -16,8 +16,6 @@
 namespace helical {
 namespace {
 
-constexpr double kGoodPosition = 0.01;
-const double kGoodOrientation = toRadians(0.5);
 constexpr double kMarkerErrorM = 1e-3;
 constexpr double kTwoSided95 = 1.96;
 
@@ -121,8 +119,8 @@ CalibrationRun calibrateOnce(const CalibrationCondition& condition, std::uint64_
     CameraEstimate estimate = calibrator->estimate();
     const double now_s = toSeconds(frame.observation.exposure);
     const Vector6d error = cameraPerturbation(estimate.camera_from_world, field.camera_from_world);
-    if (std::isinf(run.converged_s) && error.tail<3>().norm() < kGoodPosition &&
-        error.head<3>().norm() < kGoodOrientation)
+    if (std::isinf(run.converged_s) && error.tail<3>().norm() < kGoodPlaceM &&
+        error.head<3>().norm() < kGoodPlaceRad)
       run.converged_s = now_s;
     if (condition.self_calibrates) addMoment(frame, *calibrator, moments);
     if (mark == kStudyMarksS.size() || now_s < kStudyMarksS[mark] - 1e-6) continue;
@@ -164,7 +162,7 @@ Interval CalibrationResult::orientationRatio(std::size_t mark) const {
 
 Proportion CalibrationResult::success() const {
   const auto good = std::count_if(runs.begin(), runs.end(), [](const CalibrationRun& run) {
-    return run.position_m.back() < kGoodPosition && run.orientation.back() < kGoodOrientation;
+    return run.position_m.back() < kGoodPlaceM && run.orientation.back() < kGoodPlaceRad;
   });
   return proportion(static_cast<int>(good), static_cast<int>(runs.size()));
 }
@@ -242,14 +240,8 @@ CalibrationResult studyCalibration(const CalibrationCondition& condition, int ru
                                    const std::function<void(int)>& progress) {
   CalibrationResult result;
   result.condition = condition;
-  result.runs.resize(static_cast<std::size_t>(runs));
-  forEachRun(
-      runs,
-      [&](int i) {
-        result.runs[static_cast<std::size_t>(i)] =
-            calibrateOnce(condition, first_seed + static_cast<std::uint64_t>(i));
-      },
-      progress);
+  result.runs = runSeeds(runs, first_seed, progress,
+                         [&](std::uint64_t seed) { return calibrateOnce(condition, seed); });
   return result;
 }
 

@@ -9,11 +9,15 @@
 #include "engine/base/latency_histogram.h"
 #include "engine/experiments/calibration_field.h"
 #include "engine/experiments/statistics.h"
+#include "engine/geometry/rotation.h"
 
 namespace helical {
 
 /// When a calibration's error is looked at [s].
 inline constexpr std::array<double, 3> kStudyMarksS{1.0, 5.0, 13.0};
+/// Errors below which a camera's place counts as found.
+inline constexpr double kGoodPlaceM = 0.01;
+inline const double kGoodPlaceRad = toRadians(0.5);
 
 /// One calibration's errors and bounds at the marks.
 struct CalibrationRun {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/experiments/calibration_study.h"
 #include "engine/experiments/flight_run.h"
 #include "engine/experiments/parallel_runs.h"
-#include "engine/geometry/rotation.h"
 #include "engine/pipeline/flight_score.h"
 #include "engine/pipeline/lock_step.h"
 
@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kWatchedS = 5.0;
-constexpr double kGoodPosition = 0.01;
-const double kGoodOrientation = toRadians(0.5);
 constexpr double kMinuteS = 60.0;
 
 /// Hovers until told to stop looking.
@@ -54,7 +52,7 @@ KnockRun knockOnce(RigConfig rig, const KnockCondition& condition, std::uint64_t
       if (std::isinf(run.again_s) && camera.estimate.status == CameraStatus::kCalibrated) run.again_s = since_s;
     }
     const CameraError error = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world);
-    if (error.position > kGoodPosition || error.orientation > kGoodOrientation) run.back_s = since_s;
+    if (error.position > kGoodPlaceM || error.orientation > kGoodPlaceRad) run.back_s = since_s;
   });
   if (run.back_s > kWatchedS - 0.1) run.back_s = kInfinite;
   return run;
@@ -114,27 +112,15 @@ KnockResult studyKnocks(const RigConfig& rig, const KnockCondition& condition, i
                         const std::function<void(int)>& progress) {
   KnockResult result;
   result.condition = condition;
-  result.runs.resize(static_cast<std::size_t>(runs));
-  forEachRun(
-      runs,
-      [&](int i) {
-        result.runs[static_cast<std::size_t>(i)] =
-            knockOnce(rig, condition, first_seed + static_cast<std::uint64_t>(i));
-      },
-      progress);
+  result.runs = runSeeds(runs, first_seed, progress,
+                         [&](std::uint64_t seed) { return knockOnce(rig, condition, seed); });
   return result;
 }
 
 QuietResult studyFalseAlarms(const RigConfig& rig, double outliers, int minutes, std::uint64_t first_seed,
                              const std::function<void(int)>& progress) {
-  std::vector<int> alarms(static_cast<std::size_t>(minutes));
-  forEachRun(
-      minutes,
-      [&](int i) {
-        alarms[static_cast<std::size_t>(i)] =
-            alarmsInAMinute(rig, outliers, first_seed + static_cast<std::uint64_t>(i));
-      },
-      progress);
+  const std::vector<int> alarms = runSeeds(
+      minutes, first_seed, progress, [&](std::uint64_t seed) { return alarmsInAMinute(rig, outliers, seed); });
   QuietResult result;
   for (const int each : alarms) result.alarms += each;
   result.camera_hours = minutes * kMinuteS / 3600.0 * static_cast<double>(rig.cameras.size());

@@ -155,10 +155,12 @@ void ControlSet::learn(const Observation& observation, const Tracker& tracker, b
   const bool judges = airborne || !cold_start_;
   if (const int witnesses = judges && usable_[index] ? witnessesOfKnock(observation, tracker) : 0; witnesses > 0)
     takeOut(index, witnesses, tracker);
-  if (judges && usable_[index]) watchSteps(observation, tracker);
+  std::optional<RigidTransform> flown;
+  if (tracker.acquired()) flown = tracker.predict(observation.exposure, true).state.world_from_body;
+  if (flown && judges && usable_[index]) watchSteps(observation, tracker, *flown);
   teachOthers(observation, airborne);
   if (learning_[index] && !hidden_[index] && !frozen_[index]) teach(observation, tracker, airborne);
-  if (!hidden_[index]) showToRefinement(observation, tracker);
+  if (flown && !hidden_[index]) showToRefinement(observation, tracker, *flown);
   if (refinement_->work()) takeRefinement(tracker.predict(observation.exposure, airborne).state.world_from_body.translation);
   refreshUsable();
 }

@@ -74,8 +74,8 @@ class ControlSet {
   void place(std::size_t camera, const CameraEstimate& estimate);
   /// How many cameras bear witness that this one was knocked; 0: it was not.
   int witnessesOfKnock(const Observation& observation, const Tracker& tracker);
-  /// Looks for small knocks, of this camera or of another one.
-  void watchSteps(const Observation& observation, const Tracker& tracker);
+  /// Looks for small knocks, of this camera or of another one. `flown`: the pose at the exposure, in the air.
+  void watchSteps(const Observation& observation, const Tracker& tracker, const RigidTransform& flown);
   void takeOut(std::size_t camera, int witnesses, const Tracker& tracker);
   /// Ranks without gaps, and the teachers with them.
   void closeRanks();
@@ -89,7 +89,7 @@ class ControlSet {
   /// one. `outside_gate`: those, too, that do not lie where the pose says.
   NamedBalls namedBalls(const Observation& observation, const Tracker& tracker, bool outside_gate) const;
   /// Has the refinement see the balls that this camera and the tracker agree on.
-  void showToRefinement(const Observation& observation, const Tracker& tracker);
+  void showToRefinement(const Observation& observation, const Tracker& tracker, const RigidTransform& flown);
   const char* startRefinement();
   void takeRefinement(const Eigen::Vector3d& helicopter_in_world);
 

@@ -39,13 +39,12 @@ NamedBalls ControlSet::namedBalls(const Observation& observation, const Tracker&
   return balls;
 }
 
-void ControlSet::watchSteps(const Observation& observation, const Tracker& tracker) {
+void ControlSet::watchSteps(const Observation& observation, const Tracker& tracker, const RigidTransform& flown) {
   const std::size_t index = indexOf(observation.camera);
   const CameraTrack& track = tracker.track(observation.camera);
-  if (!tracker.acquired() || track.exposure != observation.exposure) return;
+  if (track.exposure != observation.exposure) return;
   const RigidTransform& camera_from_world = estimates_[index].camera_from_world;
-  const Eigen::Vector3d place =
-      tracker.predict(observation.exposure, true).state.world_from_body.translation;
+  const Eigen::Vector3d& place = flown.translation;
   if (place.z() < kContactHeightM) return;
   Eigen::Matrix<double, 2, 3> d_point;
   if (!models_[index].project(camera_from_world * place, &d_point)) return;
@@ -56,10 +55,10 @@ void ControlSet::watchSteps(const Observation& observation, const Tracker& track
     takeOut(static_cast<std::size_t>(moved), kWitnessesOfStep, tracker);
 }
 
-void ControlSet::showToRefinement(const Observation& observation, const Tracker& tracker) {
+void ControlSet::showToRefinement(const Observation& observation, const Tracker& tracker,
+                                  const RigidTransform& flown) {
   const NamedBalls balls = namedBalls(observation, tracker, false);
-  if (balls.seen.none() || !tracker.acquired()) return;
-  refinement_->see(observation.camera, balls, tracker.predict(observation.exposure, true).state.world_from_body);
+  if (balls.seen.any()) refinement_->see(observation.camera, balls, flown);
 }
 
 const char* ControlSet::startRefinement() {

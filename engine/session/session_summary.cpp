@@ -109,4 +109,14 @@ SessionSummary summarize(McapReader& session, const ExportProgress& progress, co
   return summary;
 }
 
+std::vector<SessionSummary> summarizeAll(const std::vector<std::string>& files, const ExportProgress& progress) {
+  std::vector<SessionSummary> summaries;
+  for (const auto& file : files) {
+    McapReader session(file);
+    const auto before = static_cast<double>(summaries.size()), all = static_cast<double>(files.size());
+    summaries.push_back(summarize(session, [&](double done) { progress((before + done) / all); }));
+  }
+  return summaries;
+}
+
 }  // namespace helical

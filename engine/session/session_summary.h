@@ -54,5 +54,7 @@ struct SessionSummary {
 
 /// Goes through the session, or a span of it, once. Throws Error(kInput) when it is none of ours.
 SessionSummary summarize(McapReader& session, const ExportProgress& progress, const ExportSpan& span = {});
+/// Several sessions, one after the other, of which `progress` hears as of one.
+std::vector<SessionSummary> summarizeAll(const std::vector<std::string>& files, const ExportProgress& progress);
 
 }  // namespace helical

@@ -67,8 +67,8 @@ class Installed(unittest.TestCase):
         cls.folder.cleanup()
 
     def test_files_are_where_a_desktop_looks(self):
-        for file in ("bin/helical", "bin/helical-output", "share/man/man1/helical.1", "share/helical/manual/manual.md",
-                     "share/helical/rigs/paper.toml", "share/helical/translations/helical_de.ts",
+        for file in ("bin/helical", "bin/helical-output", "bin/helical-video.so", "lib/udev/rules.d/60-helical.rules",
+                     "share/man/man1/helical.1", "share/helical/manual/manual.md", "share/helical/rigs/paper.toml", "share/helical/translations/helical_de.ts",
                      f"share/applications/{NAME}.desktop", f"share/metainfo/{NAME}.metainfo.xml",
                      f"share/icons/hicolor/scalable/apps/{NAME}.svg"):
             self.assertTrue((self.prefix / file).is_file(), file)

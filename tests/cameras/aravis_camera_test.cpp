@@ -14,6 +14,7 @@
 #include "engine/base/error.h"
 #include "engine/base/monotonic.h"
 #include "engine/simulator/gige/virtual_camera.h"
+#include "tests/support/error_of.h"
 
 namespace helical {
 namespace {
@@ -106,16 +107,6 @@ TimeNs drawnFor(const Frame& frame, const Client& client) {
   std::int64_t time = 0;
   for (int byte = 7; byte >= 0; --byte) time = time << 8 | frame.image.data[byte];
   return time + client.clock->now() - monotonicNow();
-}
-
-Error errorOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return Error(ErrorKind::kSystem, "");
 }
 
 TEST(AravisCamera, StreamsWholeFramesInOrder) {

@@ -10,6 +10,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "engine/base/error.h"
+#include "tests/support/error_of.h"
 
 namespace helical {
 namespace {
@@ -62,16 +63,6 @@ struct Player {
   std::shared_ptr<CameraLink> link = std::make_shared<CameraLink>();
   std::unique_ptr<FileCamera> camera;
 };
-
-Error errorOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return Error(ErrorKind::kSystem, "");
-}
 
 TEST(FileCamera, PlaysAVideoAtItsOwnRateToItsEnd) {
   const Files files;

@@ -36,16 +36,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-Error errorOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return Error(ErrorKind::kSystem, "");
-}
-
 int lineOf(const std::string& text, const std::string& word) {
   const std::size_t at = text.find(word);
   EXPECT_NE(at, std::string::npos) << word;

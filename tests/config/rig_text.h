@@ -1,9 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
-#include "engine/base/error.h"
+#include "tests/support/error_of.h"
 
 namespace helical {
 
@@ -12,9 +11,6 @@ std::string goodRig();
 
 /// `text` with the first `from` replaced; the test fails when there is none.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
-
-/// The Error that `action` throws; the test fails when it throws none.
-Error errorOf(const std::function<void()>& action);
 
 /// The number of the line in which `word` first stands, counted from 1.
 int lineOf(const std::string& text, const std::string& word);

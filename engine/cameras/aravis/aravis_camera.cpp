@@ -9,6 +9,7 @@
 #include "engine/base/monotonic.h"
 #include "engine/base/thread_priority.h"
 #include "engine/cameras/aravis/gvcp_probe.h"
+#include "engine/cameras/camera_silence.h"
 
 namespace helical {
 namespace {
@@ -23,7 +24,6 @@ constexpr TimeNs kOwnerMayBeDead = 4000 * kMs;  // longer than a camera believes
 constexpr int kQuickSamples = 8;
 constexpr TimeNs kQuickSamplePeriod = 100 * kMs, kSamplePeriod = 1000 * kMs;
 constexpr auto kKeepPeriod = std::chrono::milliseconds(50);
-constexpr double kSilentFrames = 5.0;
 constexpr TimeNs kAhead = 5 * kMs;  // an action with a time is told so long before
 
 }  // namespace
@@ -108,7 +108,7 @@ void AravisCamera::supervise(const std::stop_token& stop) {
 
 void AravisCamera::watch(const std::stop_token& stop) {
   const bool regular = options_.trigger != TriggerMode::kLine;  // who knows when that comes
-  const TimeNs silence = std::max(fromSeconds(1e-3 * options_.silence_ms), fromSeconds(kSilentFrames / options_.rate_hz));
+  const TimeNs silence = longestSilence(options_);
   if (current_->controlLost()) return drop(LinkState::kLost);
   const TimeNs quiet = monotonicNow() - current_->lastFrame();
   if (regular && quiet > silence) return drop(LinkState::kStalled);

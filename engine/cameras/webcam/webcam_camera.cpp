@@ -12,6 +12,7 @@
 #include "engine/base/log.h"
 #include "engine/base/monotonic.h"
 #include "engine/base/thread_priority.h"
+#include "engine/cameras/camera_silence.h"
 #include "engine/cameras/webcam/webcam_settings.h"
 
 namespace helical {
@@ -20,7 +21,6 @@ namespace {
 constexpr TimeNs kMs = kNanosecondsPerMillisecond;
 constexpr TimeNs kShortestBackoff = 100 * kMs, kLongestBackoff = 400 * kMs;
 constexpr TimeNs kStale = 60 * kMs;  // skipped for a newer frame
-constexpr double kSilentFrames = 5.0;
 constexpr TimeNs kOldestStamp = kNanosecondsPerSecond;  // else the driver stamps by another clock
 
 }  // namespace
@@ -140,9 +140,7 @@ void WebcamCamera::nap(const std::stop_token& stop) {
 
 /// The reading thread may hang in the driver meanwhile.
 void WebcamCamera::watch() {
-  const TimeNs silence =
-      std::max(fromSeconds(1e-3 * options_.silence_ms), fromSeconds(kSilentFrames / options_.rate_hz));
-  if (monotonicNow() - last_frame_.load(std::memory_order_relaxed) <= silence) return;
+  if (monotonicNow() - last_frame_.load(std::memory_order_relaxed) <= longestSilence(options_)) return;
   LinkState streaming = LinkState::kStreaming;
   link_->state.compare_exchange_strong(streaming, LinkState::kStalled);
 }

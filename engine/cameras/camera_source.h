@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/cameras/frame.h"
 
 namespace helical {
@@ -11,6 +13,9 @@ class CameraSource {
   virtual ~CameraSource() = default;
 
   virtual CameraId camera() const = 0;
+
+  /// Of its frames, where that is known before the first one: what reading them needs can be made in time.
+  virtual std::optional<PixelFormat> format() const { return std::nullopt; }
 
   /// The oldest frame that has arrived by now and was not yet polled; false if there is none. Never blocks.
   virtual bool poll(Frame& frame) = 0;

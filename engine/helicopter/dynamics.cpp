@@ -70,6 +70,14 @@ void Dynamics::placeOnGround(double x, double y, double yaw) {
   hardest_touch_ = 0.0;
 }
 
+void Dynamics::setState(const HelicopterState& state) {
+  const Eigen::Quaterniond& q = state.world_from_body.rotation;
+  x_.segment<3>(kPosition) = state.world_from_body.translation;
+  x_.segment<3>(kVelocity) = state.velocity_in_world;
+  x_.segment<4>(kRotation) << q.w(), q.x(), q.y(), q.z();
+  x_.segment<3>(kSpin) = state.angular_velocity_in_body;
+}
+
 HelicopterState Dynamics::state() const {
   HelicopterState s;
   s.world_from_body.rotation =

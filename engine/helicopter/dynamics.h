@@ -26,6 +26,9 @@ class Dynamics {
   /// Puts it on its skids at rest, rotors still.
   void placeOnGround(double x, double y, double yaw);
 
+  /// Sets the rigid body right; rotors, bar and servos stay as they are.
+  void setState(const HelicopterState& state);
+
   /// One step of `dt` seconds (1 ms) under `demand`.
   void step(const StickDemand& demand, const Gust& gust, double dt);
 

@@ -13,7 +13,9 @@ ExtractingSource::ExtractingSource(std::unique_ptr<CameraSource> source, const M
       extractor_(options),
       on_frame_(std::move(on_frame)),
       orders_(std::move(orders)),
-      lens_(lens) {}
+      lens_(lens) {
+  if (const auto format = source_->format()) extractor_.prepare(*format);
+}
 
 bool ExtractingSource::poll(Observation& observation) {
   Frame frame;

@@ -36,6 +36,7 @@ struct Extractor::Workspace {
     colours.insert(colours.end(), options.other_colours.begin(), options.other_colours.end());
   }
 
+  std::vector<std::shared_ptr<const ColourClass>> classesFor(const CellGrid& grid) const;
   void resize(const ImageView& image);
   void adaptBackground(const ImageView& image);
   CellRule ruleOf(std::size_t colour) const;
@@ -45,7 +46,8 @@ struct Extractor::Workspace {
 
   MarkerOptions options;
   std::vector<ColourRange> colours;
-  std::vector<std::shared_ptr<const ColourClass>> classes;  ///< of `colours`, for `format`
+  std::vector<std::shared_ptr<const ColourClass>> classes;   ///< of `colours`, for `format`
+  std::vector<std::shared_ptr<const ColourClass>> prepared;  ///< kept, so that the first frame finds them
   BackgroundModel background;
   RegionFinder finder;
   RegionSelection selection;
@@ -60,6 +62,14 @@ struct Extractor::Workspace {
   std::optional<PixelFormat> format;
 };
 
+std::vector<std::shared_ptr<const ColourClass>> Extractor::Workspace::classesFor(const CellGrid& grid) const {
+  std::vector<std::shared_ptr<const ColourClass>> made;
+  if (grid.layout == CellLayout::kBytes) return made;
+  for (const ColourRange& colour : colours)
+    made.push_back(ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
+  return made;
+}
+
 void Extractor::Workspace::resize(const ImageView& image) {
   if (image.width == width && image.height == height && image.format == format) return;
   const CellGrid grid(image);
@@ -68,11 +78,8 @@ void Extractor::Workspace::resize(const ImageView& image) {
   format = image.format;
   finder.resize(grid.width, grid.height);
   if (!ignored_areas.empty()) fillMask(ignored_areas, grid, ignored);
-  classes.clear();
-  if (grid.layout == CellLayout::kBytes) return;
-  for (const ColourRange& colour : colours)
-    classes.push_back(
-        ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
+  classes = classesFor(grid);
+  prepared.clear();
 }
 
 CellRule Extractor::Workspace::ruleOf(std::size_t colour) const {
@@ -141,6 +148,12 @@ Extractor::Extractor(const MarkerOptions& options) {
 Extractor::~Extractor() = default;
 Extractor::Extractor(Extractor&&) noexcept = default;
 Extractor& Extractor::operator=(Extractor&&) noexcept = default;
+
+void Extractor::prepare(PixelFormat format) {
+  ImageView image;
+  image.format = format;
+  workspace_->prepared = workspace_->classesFor(CellGrid(image));
+}
 
 void Extractor::takeBackground() {
   workspace_->background.take();

@@ -24,6 +24,9 @@ class Extractor {
   Extractor(Extractor&&) noexcept;
   Extractor& operator=(Extractor&&) noexcept;
 
+  /// Builds now what frames of this format need, which takes a tenth of a second; otherwise the first one does.
+  void prepare(PixelFormat format);
+
   /// Averages the next `background_frames` frames into a new background; until then nothing is found.
   void takeBackground();
   /// Uses this image as background.

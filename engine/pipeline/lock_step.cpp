@@ -1,5 +1,7 @@
 #include "engine/pipeline/lock_step.h"
 
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/pipeline/calibration_view.h"
 #include "engine/pipeline/rig_devices.h"
@@ -8,6 +10,7 @@ namespace helical {
 namespace {
 
 constexpr TimeNs kStep = kNanosecondsPerMillisecond;
+constexpr double kMoved = 1e-6;  // m and rad, by more than a pose loses on its way through a file
 
 const RigConfig& simulatedOnly(const RigConfig& rig) {
   if (needsRealTime(rig))
@@ -32,29 +35,64 @@ LockStep::LockStep(const RigConfig& rig, const FlightPlan& plan, FlightTap* tap)
       announcer_(rig),
       tick_period_s_(1.0 / rig.control.rate_hz) {}
 
-const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
-  const TimeNs tick_time = fromSeconds(tick_period_s_ * static_cast<double>(++ticks_));
-  while (clock_->now() < tick_time) {
-    clock_->set(clock_->now() + kStep);
+void LockStep::passTo(TimeNs time, bool looking) {
+  while (clock_->now() < time) {
+    // On the grid of milliseconds; only a recorded tick may lie between two of its points.
+    const TimeNs next = (clock_->now() / kStep + 1) * kStep;
+    clock_->set(looking ? next : std::min(next, time));
     Observation observation;
     for (auto& source : hardware_.sources)
-      while (source->poll(observation)) use(observation);
+      while (source->poll(observation))
+        if (looking) use(observation);
   }
-  const TimeNs now = clock_->now();
+}
+
+const EngineSnapshot& LockStep::tick(const OperatorCommands& commands) {
+  passTo(counted_from_ + fromSeconds(tick_period_s_ * static_cast<double>(++ticks_)), true);
   if (commands.kill) output_.kill();
   OperatorCommands gated = commands;
   gated.kill = output_.stopped();
   DeviceStatus devices;
   devices.transmitter = output_.transmitterStatus();
   if (tap_ != nullptr) devices.record = tap_->health();
-  output_.submit(loop_.onTick(now, gated, devices), now);
+  const EngineSnapshot& state = command(clock_->now(), gated, devices);
+  if (tap_ != nullptr) show(gated, state.time);
+  return state;
+}
+
+const EngineSnapshot& LockStep::follow(const RecordedTick& recorded) {
+  passTo(recorded.time, false);
+  counted_from_ = recorded.time;
+  ticks_ = 0;
+  if (recorded.commands.kill) output_.kill();
+  setRight(recorded);
+  return command(recorded.time, recorded.commands, recorded.devices);
+}
+
+void LockStep::setRight(const RecordedTick& recorded) {
+  World& world = *hardware_.world;
+  world.advanceTo(recorded.time);
+  if (recorded.truth) world.setRight(*recorded.truth, recorded.time);
+  for (std::size_t i = 0; i < hardware_.disturbances.size(); ++i) {
+    const auto& truth = recorded.true_camera_from_world[i];
+    if (!hardware_.disturbances[i] || !truth) continue;
+    const RigidTransform planned = hardware_.disturbances[i]->cameraFromWorld(toSeconds(recorded.time));
+    // Only where somebody moved it: any other one is where the rig file says, to the last bit.
+    if ((truth->translation - planned.translation).norm() > kMoved ||
+        truth->rotation.angularDistance(planned.rotation) > kMoved)
+      world.setRight(cameraId(static_cast<int>(i)), planned, *truth);
+  }
+}
+
+const EngineSnapshot& LockStep::command(TimeNs now, const OperatorCommands& commands,
+                                        const DeviceStatus& devices) {
+  output_.submit(loop_.onTick(now, commands, devices), now);
   for (std::size_t i = 0; i < hardware_.orders.size(); ++i)
     hardware_.orders[i]->expect(loop_.expectedBalls(cameraId(static_cast<int>(i))));
   output_.step(now);
   snapshot_ = loop_.snapshot();
   hardware_.addTruth(snapshot_, now);
   hardware_.addLinks(snapshot_);
-  if (tap_ != nullptr) show(gated, now);
   return snapshot_;
 }
 

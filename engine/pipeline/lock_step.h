@@ -1,7 +1,8 @@
 #pragma once
 
-#include <functional>
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/base/clock.h"
@@ -13,6 +14,15 @@
 
 namespace helical {
 
+/// A control tick of a flight that was, and what was true then as far as it is known.
+struct RecordedTick {
+  TimeNs time = 0;
+  OperatorCommands commands;
+  DeviceStatus devices;
+  std::optional<HelicopterState> truth;
+  std::array<std::optional<RigidTransform>, kMaxCameras> true_camera_from_world;
+};
+
 /// A flight on simulated time, on the calling thread, as fast as the machine allows: the clock moves by 1 ms,
 /// cameras are polled, the flight loop ticks, the output loop sends. Bit for bit repeatable for a seed.
 class LockStep {
@@ -23,6 +33,12 @@ class LockStep {
   /// Advances to the next control tick and returns the state after it.
   const EngineSnapshot& tick(const OperatorCommands& commands);
 
+  /// A tick of a recorded flight, for forks of it. Time passes until then, and nobody looks at what the cameras
+  /// see meanwhile: `loop` has got what reached it in that flight. The world moves under the sticks that the
+  /// loop gives and is set right by what was true.
+  const EngineSnapshot& follow(const RecordedTick& recorded);
+  FlightLoop& loop() { return loop_; }
+
   void hideCamera(CameraId camera, bool hidden);
   /// Begins a camera's calibration anew.
   void calibrate(CameraId camera, const std::string& method, std::uint64_t seed);
@@ -32,6 +48,10 @@ class LockStep {
   void change(const FlightChange& change);
 
  private:
+  /// Polls the cameras every millisecond on the way.
+  void passTo(TimeNs time, bool looking);
+  const EngineSnapshot& command(TimeNs now, const OperatorCommands& commands, const DeviceStatus& devices);
+  void setRight(const RecordedTick& recorded);
   void use(const Observation& observation);
   void show(const OperatorCommands& commands, TimeNs now);
 
@@ -45,7 +65,8 @@ class LockStep {
   EngineSnapshot snapshot_;
   CalibrationView belief_;
   double tick_period_s_;
-  std::uint64_t ticks_ = 0;
+  TimeNs counted_from_ = 0;  ///< the recorded flight's last tick, if there was one
+  std::uint64_t ticks_ = 0;  ///< since then
 };
 
 }  // namespace helical

@@ -23,6 +23,7 @@ class TamperedCamera final : public CameraSource {
   TamperedCamera(std::unique_ptr<CameraSource> source, std::shared_ptr<TamperingChannel> channel);
 
   CameraId camera() const override { return source_->camera(); }
+  std::optional<PixelFormat> format() const override { return source_->format(); }
   bool poll(Frame& frame) override;
   void wait(TimeNs deadline) override { source_->wait(deadline); }
 

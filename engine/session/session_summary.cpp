@@ -30,6 +30,7 @@ SessionSample::Camera sampleOf(const CameraSnapshot& camera, int markers) {
   sample.orientation_sigma = known ? std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace()) : kUnknown;
   sample.position_sigma = known ? std::sqrt(estimate.covariance.bottomRightCorner<3, 3>().trace()) : kUnknown;
   sample.position_bound = camera.calibration_bound ? camera.calibration_bound->position_m : kUnknown;
+  sample.covered = camera.hidden || camera.boards > 0;
   sample.residual_px = camera.track.selected_count > 0 ? camera.track.residual_px : kUnknown;
   sample.latency_ms = camera.frames > 0 ? 1e-6 * static_cast<double>(camera.latency) : kUnknown;
   sample.effective_sample_size =

@@ -23,6 +23,7 @@ struct SessionSample {
     double latency_ms = 0.0;             ///< mid-exposure to its use, newest frame
     std::uint16_t selected = 0;  ///< bit m: marker m was used in its newest frame
     CameraStatus status = CameraStatus::kUncalibrated;
+    bool covered = false;  ///< by the operator's order or board, or by one of the simulation
   };
   double time_s = 0.0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< tracked, from where it stood on the pad [m]

@@ -19,6 +19,7 @@ class SimulatedCamera final : public CameraSource {
                   std::shared_ptr<World> world, std::shared_ptr<Clock> clock);
 
   CameraId camera() const override { return camera_; }
+  std::optional<PixelFormat> format() const override { return PixelFormat::kBgr8; }
   bool poll(Frame& frame) override;
   void wait(TimeNs deadline) override;
 

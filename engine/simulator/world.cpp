@@ -122,7 +122,27 @@ RigidTransform World::knocked(CameraId camera, const RigidTransform& camera_from
   RigidTransform pose = camera_from_world;
   for (const Knock& knock : knocks_)
     if (knock.camera == camera) pose = displaced(pose, knock.angle, knock.distance, knock.random);
-  return pose;
+  const auto& correction = true_from_knocked_[static_cast<std::size_t>(camera.index())];
+  return correction ? *correction * pose : pose;
+}
+
+void World::setRight(const HelicopterState& state, TimeNs time) {
+  const std::lock_guard lock(mutex_);
+  if (placed_at_step_ < 0) placed_at_step_ = step_;
+  if (isCarried()) return;
+  HelicopterState now = state;
+  const double since_s = toSeconds(step_ * kStep - time);
+  now.world_from_body.translation += since_s * state.velocity_in_world;
+  now.world_from_body.rotation = now.world_from_body.rotation * expSO3(since_s * state.angular_velocity_in_body);
+  dynamics_.setState(now);
+  history_[static_cast<std::size_t>(step_ % kHistory)].state = dynamics_.state();
+}
+
+void World::setRight(CameraId camera, const RigidTransform& camera_from_world,
+                     const RigidTransform& true_camera_from_world) {
+  const std::lock_guard lock(mutex_);
+  true_from_knocked_[static_cast<std::size_t>(camera.index())] =
+      true_camera_from_world * camera_from_world.inverse();
 }
 
 void World::judge() {

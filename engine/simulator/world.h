@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -53,6 +54,13 @@ class World {
   void gust(const Eigen::Vector3d& wind, double duration_s);
   /// Somebody knocks a camera now: it turns about a random axis and shifts in a random direction.
   void knock(CameraId camera, double angle, double distance);
+  /// For worlds that follow a recorded one: the helicopter is on the field, and was like this at `time`, within
+  /// a few milliseconds of the last advance; rotors, bar and air are not known and go on as they are. Nothing
+  /// happens while somebody carries it.
+  void setRight(const HelicopterState& state, TimeNs time);
+  /// Likewise: a camera that would be at `camera_from_world` truly is at `true_camera_from_world`.
+  void setRight(CameraId camera, const RigidTransform& camera_from_world,
+                const RigidTransform& true_camera_from_world);
   /// Where a camera is that would be at `camera_from_world` had nobody knocked it by `knock`.
   RigidTransform knocked(CameraId camera, const RigidTransform& camera_from_world) const;
 
@@ -86,6 +94,7 @@ class World {
   double ordered_since_s_ = 0.0;
   double ordered_duration_s_ = 0.0;
   std::vector<Knock> knocks_;
+  std::array<std::optional<RigidTransform>, kMaxCameras> true_from_knocked_;
   std::deque<Command> commands_;
   StickDemand sticks_;
   std::int64_t step_ = 0;

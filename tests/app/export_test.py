@@ -18,8 +18,9 @@ class Export(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.place = pathlib.Path(cls.folder.name)
         cls.file = cls.place / "flight.mcap"
-        cls.code, cls.report = run_json("fly", "--seed", 4, "--duration", 14, "--calibrator", "joint", "--session",
-                                        cls.file, "--session-images", "jpeg@15", "--session-images", "3=off")
+        cls.code, cls.report = run_json("fly", "--seed", 4, "--duration", 14, "--calibrator", "joint",
+                                        "--occlude", "2@9-11", "--session", cls.file, "--session-images", "jpeg@15",
+                                        "--session-images", "3=off")
 
     @classmethod
     def tearDownClass(cls):
@@ -49,8 +50,8 @@ class Export(unittest.TestCase):
 
     def test_figures_and_a_report(self):
         files, _ = self.export("png,pdf", "figures")
-        stems = {"fig06", "fig07", "fig08", "fig09", "fig10", "tracking", "calibration", "calibration_orientation",
-                 "residuals", "sticks", "latency", "latency_histogram"}
+        stems = {"fig06", "fig07", "fig08", "fig09", "fig10", "fig11", "tracking", "calibration",
+                 "calibration_orientation", "residuals", "sticks", "latency", "latency_histogram"}
         self.assertEqual(set(files), {f"{stem}.{suffix}" for stem in stems for suffix in ("png", "pdf")} | {"report.pdf"})
         for name, file in files.items():
             content = file.read_bytes()

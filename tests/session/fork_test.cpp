@@ -16,9 +16,11 @@ using test::TemporaryFolder;
 
 constexpr int kTicks = 900;
 
-void record(const std::filesystem::path& file, const SessionSettings& settings, int ticks = kTicks) {
-  Recorder recorder(file, settings, Recorder::WhenFull::kWait);
-  LockStep flight(settings.rig, settings.plan, &recorder);
+/// `flown` by the simulator, recorded as a flight by `written`.
+void record(const std::filesystem::path& file, const SessionSettings& flown, const SessionSettings& written,
+            int ticks = kTicks) {
+  Recorder recorder(file, written, Recorder::WhenFull::kWait);
+  LockStep flight(flown.rig, flown.plan, &recorder);
   OperatorCommands commands;
   for (int i = 0; i < ticks; ++i) {
     commands.arm = commands.take_off = i == 60;
@@ -26,6 +28,10 @@ void record(const std::filesystem::path& file, const SessionSettings& settings, 
     if (i == 330) flight.hideCamera(cameraId(2), false);
     flight.tick(commands);
   }
+}
+
+void record(const std::filesystem::path& file, const SessionSettings& settings, int ticks = kTicks) {
+  record(file, settings, settings, ticks);
 }
 
 Fork fork(const std::filesystem::path& file, const ForkChanges& changes) {
@@ -83,9 +89,55 @@ TEST(Fork, WhatCannotBeIsRefused) {
   EXPECT_THROW(
       fork(folder / "a.mcap", {.at_s = 1.0, .occlusions = {{cameraId(0), 0.5, 2.0}}, .calibrator = {}}),
       Error);
+  settings.rig.cameras[0].source = "webcam:/dev/video0";
+  McapReader session(folder / "a.mcap");
+  EXPECT_THROW(forkSession(
+                   session, settings, {.at_s = 1.0, .occlusions = {}, .calibrator = {}},
+                   [](const EngineSnapshot&) {}, [](const EngineSnapshot&) { return true; }),
+               Error);
+}
+
+/// What differs from a flight in real time is when its threads ran.
+SessionSettings asInRealTime(std::uint64_t seed) {
+  SessionSettings settings = test::hoverSettings(seed);
   settings.realtime = true;
-  record(folder / "live.mcap", settings, 120);
-  EXPECT_THROW(fork(folder / "live.mcap", {.at_s = 1.0, .occlusions = {}, .calibrator = {}}), Error);
+  return settings;
+}
+
+TEST(ForkInRealTime, TheLoopRepeatsItselfAndTheWorldIsWhereItWas) {
+  const TemporaryFolder folder;
+  const SessionSettings settings = asInRealTime(45);
+  record(folder / "a.mcap", test::hoverSettings(45), settings);
+  std::vector<EngineSnapshot> ticks;
+  McapReader session(folder / "a.mcap");
+  const Fork same = forkSession(
+      session, settings, {.at_s = 9.0, .occlusions = {}, .calibrator = {}},
+      [&](const EngineSnapshot& now) { ticks.push_back(now); },
+      [](const EngineSnapshot& now) { return now.tick >= kTicks; });
+  EXPECT_GT(same.ticks_before, 500u);
+  EXPECT_EQ(same.different_before, 0u);
+  ASSERT_EQ(ticks.size(), static_cast<std::size_t>(kTicks));
+  const EngineSnapshot& before = ticks[same.ticks_before - 1];
+  const EngineSnapshot& after = ticks[same.ticks_before];
+  EXPECT_GT(before.truth.world_from_body.translation.z(), 0.5);
+  const Eigen::Vector3d expected = before.truth.world_from_body.translation +
+                                   toSeconds(after.time - before.time) * before.truth.velocity_in_world;
+  EXPECT_LT((after.truth.world_from_body.translation - expected).norm(), 1e-3) << "no jump at the fork";
+  EXPECT_FALSE(same.last.verdict.crashed);
+  EXPECT_LT((same.last.truth.world_from_body.translation - same.last.set_point.position_in_world).norm(), 0.1)
+      << "it flies on as well as it did";
+}
+
+TEST(ForkInRealTime, CoveredCamerasBringItDown) {
+  const TemporaryFolder folder;
+  record(folder / "a.mcap", test::hoverSettings(46), asInRealTime(46));
+  ForkChanges changes;
+  changes.at_s = 9.0;
+  for (int c = 0; c < 3; ++c) changes.occlusions.push_back({cameraId(c), 9.0, 100.0});
+  const Fork blind = fork(folder / "a.mcap", changes);
+  EXPECT_EQ(blind.different_before, 0u);
+  EXPECT_NE(blind.last.failsafes, 0u);
+  EXPECT_LT(blind.last.truth.world_from_body.translation.z(), 0.4);
 }
 
 TEST(Replay, TwentySessionsComeOutTheSameBitForBit) {

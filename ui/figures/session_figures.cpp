@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "engine/geometry/rotation.h"
 #include "ui/figures/fitted_axis.h"
@@ -113,10 +114,42 @@ Figure featuresFigure(const SessionSummary& session) {
     raster.braces.push_back({cameraName(session, static_cast<std::size_t>(camera)), first - kHalfRow,
                              first + trace.marker_count - 1 + kHalfRow});
   }
-  return {QStringLiteral("fig08"),
-          QStringLiteral("The label of the selected image features (the paper's figures 8 and 11)"),
-          {},
-          {raster}};
+  return {QStringLiteral("fig08"), QStringLiteral("The label of the selected image features"), {}, {raster}};
+}
+
+bool isCovered(const SessionSummary& session, const SessionSample& sample, std::size_t camera) {
+  const auto& occlusions = session.settings.rig.simulation.occlusions;
+  return sample.cameras[camera].covered ||
+         std::any_of(occlusions.begin(), occlusions.end(), [&](const Occlusion& occlusion) {
+           return occlusion.camera == cameraId(static_cast<int>(camera)) && sample.time_s >= occlusion.from_s &&
+                  sample.time_s < occlusion.to_s;
+         });
+}
+
+/// The longest time without interruption for which a camera was covered.
+std::optional<ShadedSpan> longestCover(const SessionSummary& session, std::size_t camera) {
+  std::optional<ShadedSpan> longest;
+  double since_s = 0.0;
+  bool was_covered = false;
+  for (const SessionSample& sample : session.samples) {
+    const bool covered = isCovered(session, sample, camera);
+    if (covered && !was_covered) since_s = sample.time_s;
+    was_covered = covered;
+    if (covered && (!longest || sample.time_s - since_s > longest->to_s - longest->from_s))
+      longest = {cameraName(session, camera) + QStringLiteral(" is covered"), since_s, sample.time_s};
+  }
+  return longest;
+}
+
+/// Of flights in which a camera was covered, as in the paper's experiment B. No panels for any other one.
+Figure coveredFeaturesFigure(const SessionSummary& session) {
+  Figure figure = featuresFigure(session);
+  figure.file_stem = QStringLiteral("fig11");
+  figure.title = QStringLiteral("The label of the selected image features, with covered cameras");
+  for (std::size_t c = 0; c < session.settings.rig.cameras.size(); ++c)
+    if (const auto span = longestCover(session, c)) figure.panels[0].spans.push_back(*span);
+  if (figure.panels[0].spans.empty()) figure.panels.clear();
+  return figure;
 }
 
 /// One panel for each camera whose pose is learnt.
@@ -307,6 +340,7 @@ std::vector<Figure> sessionFigures(const SessionSummary& session) {
           session, "fig10", QStringLiteral("Calibration error: orientation"), QStringLiteral("[\u00b0]"), 1.0,
           40.0,
           [](const Camera& camera) -> Eigen::Vector3d { return toDegrees(1.0) * camera.rotation_error; }),
+      coveredFeaturesFigure(session),
       trackingFigure(session),
       convergenceFigure(session),
       orientationFigure(session),

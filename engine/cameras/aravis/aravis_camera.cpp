@@ -71,6 +71,7 @@ void AravisCamera::openFirst() {
                   "check its power, cable and address; `helical devices` lists what is there");
   }
   current_ = open();
+  format_ = current_->format();
   link_->state = LinkState::kStreaming;
 }
 

@@ -32,6 +32,7 @@ class AravisCamera final : public CameraSource {
   ~AravisCamera() override;
 
   CameraId camera() const override { return camera_; }
+  std::optional<PixelFormat> format() const override { return format_; }
   bool poll(Frame& frame) override;
   void wait(TimeNs deadline) override;
 
@@ -65,6 +66,7 @@ class AravisCamera final : public CameraSource {
   const int height_;
   const std::shared_ptr<Clock> clock_;
   const std::shared_ptr<CameraLink> link_;
+  std::optional<PixelFormat> format_;  ///< when it was opened first
 
   SpscQueue<ReceivedFrame, 8> frames_;
   SpscQueue<NumberedSample, 16> samples_;

@@ -82,6 +82,8 @@ void AravisSession::open(const std::string& device, const DeviceOptions& options
                 "end the other one; after a crash it takes 3 seconds until the camera is free");
   arv_camera_stop_acquisition(camera_, nullptr);  // it may still send to a client that died
   applySettings(camera_, options, width, height, where_);
+  PixelFormat format{};
+  if (toPixelFormat(arv_camera_get_pixel_format(camera_, nullptr), format)) format_ = format;
   exposure_us_ = arv_camera_is_exposure_time_available(camera_, nullptr) != 0
                      ? arv_camera_get_exposure_time(camera_, nullptr)
                      : 0.0;

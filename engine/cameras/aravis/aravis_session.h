@@ -58,6 +58,8 @@ class AravisSession {
   bool controlLost() const { return control_lost_.load(std::memory_order_relaxed); }
   /// When the last frame came, whole or not, on CLOCK_MONOTONIC; when it started, before the first one.
   TimeNs lastFrame() const { return last_frame_.load(std::memory_order_relaxed); }
+  /// As the camera says; nothing for one that nothing here reads.
+  std::optional<PixelFormat> format() const { return format_; }
   double exposureUs() const { return exposure_us_; }
   std::string description() const { return description_; }
 
@@ -96,6 +98,7 @@ class AravisSession {
   std::atomic<int> lent_{0};
   std::atomic<std::uint64_t> incomplete_{0};
   unsigned long control_lost_handler_ = 0;
+  std::optional<PixelFormat> format_;
   double exposure_us_ = 0.0;
   std::uint64_t tick_frequency_ = 0;  ///< 0: the clock cannot be read
   ClockSample first_sample_;

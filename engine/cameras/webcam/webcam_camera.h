@@ -36,6 +36,7 @@ class WebcamCamera final : public CameraSource {
   ~WebcamCamera() override;
 
   CameraId camera() const override { return camera_; }
+  std::optional<PixelFormat> format() const override { return PixelFormat::kBgr8; }
   bool poll(Frame& frame) override;
   void wait(TimeNs deadline) override;
 

@@ -7,9 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "app/bench_centroids.h"
 #include "app/bench_read.h"
 #include "app/bench_report.h"
 #include "app/bench_scene.h"
@@ -46,6 +48,7 @@ cv::Mat mosaicOf(const cv::Mat& bgr) {
 MarkerOptions binaryOptions() {
   MarkerOptions options;
   options.estimator = CentroidEstimator::kBinary;
+  options.background_rows = 0;
   return options;
 }
 
@@ -63,9 +66,13 @@ class SizeBench {
         contours_(binaryOptions(), OpencvPipeline::Labelling::kContours),
         binary_(binaryOptions()),
         fitted_(MarkerOptions{}),
+        expecting_(MarkerOptions{}),
         bayer_(binaryOptions()) {
     binary_.setBackground(viewOf(scene_.background, PixelFormat::kBgr8));
-    fitted_.setBackground(viewOf(scene_.background, PixelFormat::kBgr8));
+    for (Extractor* extractor : {&fitted_, &expecting_}) {
+      extractor->setBackground(viewOf(scene_.background, PixelFormat::kBgr8));
+      extractor->setIgnoredAreas({{{0.0, 0.0}, {0.2 * width, 0.0}, {0.1 * width, 0.3 * height}}});
+    }
     bayer_.setBackground(viewOf(raw_background_, PixelFormat::kBayerRg8));
   }
 
@@ -74,6 +81,7 @@ class SizeBench {
     add("findcontours", [this] { contours_.run(scene_.frame, scene_.background); });
     add("helical", [this] { binary_.extract(viewOf(scene_.frame, PixelFormat::kBgr8), found_); });
     add("helical_default", [this] { fitted_.extract(viewOf(scene_.frame, PixelFormat::kBgr8), found_); });
+    add("helical_expecting", [this] { expecting_.extract(viewOf(scene_.frame, PixelFormat::kBgr8), found_); });
     add("bayer", [this] { bayer_.extract(viewOf(raw_, PixelFormat::kBayerRg8), found_); });
     add("all_green", [this] { binary_.extract(viewOf(all_green_, PixelFormat::kBgr8), found_); });
     add("read", [this] { sum_ = sumOfBytes(scene_.frame.data, scene_.frame.total() * 3); });
@@ -89,7 +97,9 @@ class SizeBench {
       set("findcontours_over_helical", "findcontours", "helical");
       set("helical_over_read", "helical", "read");
       set("opencv_over_helical_default", "opencv", "helical_default");
+      set("findcontours_over_helical_default", "findcontours", "helical_default");
       set("helical_default_over_read", "helical_default", "read");
+      set("helical_expecting_over_read", "helical_expecting", "read");
       set("bayer_over_bgr", "bayer", "helical");
       set("all_green_over_normal", "all_green", "helical");
       for (const std::string& way : ways_)
@@ -101,6 +111,15 @@ class SizeBench {
   void countMarkers() {
     binary_.extract(viewOf(scene_.frame, PixelFormat::kBgr8), found_);
     marker_count_ = found_.count;
+    BallPredictions predictions;
+    for (const Centroid& centroid : std::span(found_.centroids.data(), static_cast<std::size_t>(found_.count))) {
+      PredictedBall& ball = predictions.balls[static_cast<std::size_t>(predictions.count++)];
+      ball.pixel = centroid.pixel;
+      ball.radius_px = centroid.radius_px;
+      ball.reach_px = 8.0;
+      ball.whole = true;
+    }
+    expecting_.expect(predictions);
   }
 
  private:
@@ -121,7 +140,10 @@ class SizeBench {
   cv::Mat raw_, raw_background_, all_green_;
   std::vector<std::uint8_t> displacing_;
   OpencvPipeline components_, contours_;
-  Extractor binary_, fitted_, bayer_;
+  Extractor binary_;     ///< pixels to binary centroids
+  Extractor fitted_;     ///< as it comes: discs, a background that follows the light, and an ignored area
+  Extractor expecting_;  ///< the same, told where the balls should be
+  Extractor bayer_;
   Observation found_;
   volatile std::uint64_t sum_ = 0;
   int marker_count_ = 0;
@@ -140,13 +162,14 @@ void run(bool as_json, const std::string& instructions) {
     bench.measure();
     bench.report(report);
   }
+  report["centroids"] = benchCentroids();
   printBenchReport(report, as_json);
 }
 
 }  // namespace
 
 void addMarkersBench(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("markers", "The extractor beside OpenCV and one read of the frame");
+  CLI::App* command = app.add_subcommand("markers", "The extractor beside OpenCV and one read of the frame; its centroids beside their bound");
   auto as_json = std::make_shared<bool>(false);
   auto instructions = std::make_shared<std::string>();
   command->add_flag("--json", *as_json, "One JSON object on stdout");

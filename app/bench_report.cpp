@@ -10,6 +10,8 @@ namespace {
 void printLines(const nlohmann::ordered_json& value, const std::string& name) {
   if (value.is_object()) {
     for (const auto& [key, child] : value.items()) printLines(child, name.empty() ? key : name + " " + key);
+  } else if (value.is_array()) {
+    for (const auto& entry : value) printLines(entry, name + " " + std::to_string(&entry - &value.front()));
   } else if (value.is_number_float()) {
     std::printf("%-60s %.4g\n", name.c_str(), value.get<double>());
   } else {

@@ -2,18 +2,12 @@
 
 #include <algorithm>
 
+#include "engine/markers/mask_kernels.h"
+
 namespace helical {
 namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
-
-/// Bits of the cells `s` to the left and to the right of those of word `w`.
-std::uint64_t fromLeft(const std::uint64_t* words, int w, int s) {
-  return words[w] << s | words[w - 1] >> (64 - s);
-}
-std::uint64_t fromRight(const std::uint64_t* words, int w, int s) {
-  return words[w] >> s | words[w + 1] << (64 - s);
-}
 
 }  // namespace
 
@@ -76,11 +70,7 @@ void BinaryMask::erode(const BinaryMask& source, int reach, const WordRect& rect
     line[left - 1] = left == 0 ? kAll : 0;
     line[right + 1] = at_right ? kAll : 0;
     if (at_right) line[right] |= ~lastWordMask();
-    for (int w = left; w <= right; ++w) {
-      std::uint64_t kept = line[w];
-      for (int s = 1; s <= reach; ++s) kept &= fromLeft(line, w, s) & fromRight(line, w, s);
-      out[w] = kept;
-    }
+    erodeLine(line + left, right - left + 1, reach, out + left);
     if (at_right) out[right] &= lastWordMask();
   }
 }
@@ -95,11 +85,7 @@ void BinaryMask::dilate(const BinaryMask& source, int reach, const WordRect& rec
       for (int w = left; w <= right; ++w) line[w] |= source.row(i)[w];
     line[left - 1] = line[right + 1] = 0;
     std::uint64_t* out = row(y);
-    for (int w = left; w <= right; ++w) {
-      std::uint64_t grown = line[w];
-      for (int s = 1; s <= reach; ++s) grown |= fromLeft(line, w, s) | fromRight(line, w, s);
-      out[w] = grown;
-    }
+    dilateLine(line + left, right - left + 1, reach, out + left);
     if (right == words_ - 1) out[right] &= lastWordMask();
   }
 }

@@ -29,11 +29,22 @@ struct CellRule {
 /// The loops over pixels, in the instructions of the machine they run on (Google Highway; one binary has
 /// all). Every instruction set gives the same bits.
 
-/// The cells of row `y` in words [first_word, end_word) that may be a marker's by themselves: a superset for
-/// colours, exact for brightness. Writes the words with any to `found`, which has room for all, and returns
-/// their number. Row `next` is fetched into the cache on the way.
-int findCandidates(const CellGrid& grid, const CellRule& rule, int y, int next, int first_word, int end_word,
-                   CellWord* found);
+/// Every `step`-th row from `first` on, and `last` at the end, as far as `end`.
+struct ScannedRows {
+  int first = 0;
+  int step = 1;
+  int last = 0;
+  int end = 0;
+
+  int after(int y) const { return y + step < last ? y + step : last; }
+};
+
+/// The cells of these rows in words [first_word, end_word) that may be a marker's by themselves: a superset
+/// for colours, exact for brightness. Writes the words with any to `found` and returns their number; stops
+/// after the row with which they become more than `most`, and `found` has room for that row, too. Each next
+/// row is fetched into the cache on the way.
+int findCandidates(const CellGrid& grid, const CellRule& rule, const ScannedRows& rows, int first_word,
+                   int end_word, int most, CellWord* found);
 
 /// Replaces candidate bits by exact ones: cells that the rule takes and that differ from the background, if
 /// there is one, by more than the threshold.
@@ -44,9 +55,9 @@ void refineCandidates(const CellGrid& grid, const CellGrid* background, const Ce
 void classifyWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
                    std::span<CellWord> words);
 
-/// Exact bits of a whole row.
-void classifyRow(const CellGrid& grid, const CellGrid* background, const CellRule& rule, int y,
-                 std::uint64_t* words);
+/// Exact bits of the whole grid, row after row.
+void classifyGrid(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+                  std::uint64_t* words);
 
 /// The instruction set in use, and those that this machine has, best first, as Highway names them.
 std::string instructionSet();

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMostIslands = 48;
 /// Sparse work stops being worth it when it comes to this share of the words it may come to.
-constexpr std::size_t kDenseShare = 4;
+constexpr int kDenseShare = 4;
 
 }  // namespace
 
@@ -26,8 +26,8 @@ std::span<Region> RegionFinder::find(const CellGrid& frame, const CellGrid* back
                                      const BinaryMask* ignored, BinaryMask* mask,
                                      std::span<const WordRect> windows) {
   const WordRect everywhere = first_.everywhere();
-  const Task task{frame, background, rule, ignored, mask,
-                  windows.empty() ? std::span(&everywhere, 1) : windows};
+  const Task task{frame,   background, rule,
+                  ignored, mask,       windows.empty() ? std::span(&everywhere, 1) : windows};
   labeller_.clear();
   if (mask != nullptr) mask->clear(mask->everywhere());
   const bool done = findSparsely(task);
@@ -56,18 +56,14 @@ bool RegionFinder::findSparsely(const Task& task) {
 bool RegionFinder::scanRows(const Task& task, const WordRect& window) {
   const int words = first_.wordsPerRow(), height = first_.height(), step = 2 * opening_reach_ + 1;
   const int last = std::max(0, height - 1 - opening_reach_);
-  const std::size_t most =
-      static_cast<std::size_t>(words) * static_cast<std::size_t>(height / step + 1) / kDenseShare;
-  const auto rowAfter = [&](int y) { return std::min(y + step, last); };
-  int y = std::min(opening_reach_, last);
-  while (y < window.top && y < last) y = rowAfter(y);
-  for (; y <= window.bottom; y = rowAfter(y)) {
-    hit_count_ += static_cast<std::size_t>(findCandidates(task.frame, task.rule, y, rowAfter(y), window.left,
-                                                          window.right + 1, hits_.data() + hit_count_));
-    if (hit_count_ > most) return false;
-    if (y == last) break;
-  }
-  return true;
+  const int most = words * (height / step + 1) / kDenseShare - static_cast<int>(hit_count_);
+  ScannedRows rows{std::min(opening_reach_, last), step, last, window.bottom};
+  if (rows.first < window.top)
+    rows.first = std::min(last, rows.first + (window.top - rows.first + step - 1) / step * step);
+  const int found = findCandidates(task.frame, task.rule, rows, window.left, window.right + 1, most,
+                                   hits_.data() + hit_count_);
+  hit_count_ += static_cast<std::size_t>(found);
+  return found <= most;
 }
 
 void RegionFinder::fetchAround(const Task& task) const {
@@ -128,7 +124,7 @@ bool RegionFinder::expand(const CellWord& hit) {
       known = 1;
       around_[around_count_++] = {y, w, 0};
     }
-  return around_count_ <= is_known_.size() / kDenseShare && addIsland(box);
+  return around_count_ <= is_known_.size() / static_cast<std::size_t>(kDenseShare) && addIsland(box);
 }
 
 bool RegionFinder::addIsland(WordRect box) {
@@ -182,9 +178,9 @@ void RegionFinder::findDensely(const Task& task) {
   labeller_.clear();
   const int words = first_.wordsPerRow();
   int top = first_.height(), bottom = -1;
+  classifyGrid(task.frame, task.background, task.rule, first_.row(0));
   for (int y = 0; y < first_.height(); ++y) {
     std::uint64_t* row = first_.row(y);
-    classifyRow(task.frame, task.background, task.rule, y, row);
     std::uint64_t any = 0;
     for (int w = 0; w < words; ++w) {
       if (task.ignored != nullptr) row[w] &= ~task.ignored->row(y)[w];

@@ -18,9 +18,9 @@ namespace {
 
 using test::Picture;
 
-enum class Scene { kNoise, kBlocks, kBalls, kClutter, kAllMarker };
-constexpr std::array kScenes{Scene::kNoise, Scene::kBlocks, Scene::kBalls, Scene::kClutter,
-                             Scene::kAllMarker};
+enum class Scene { kNoise, kBlocks, kBalls, kClutter, kAllMarker, kHalfMarker };
+constexpr std::array kScenes{Scene::kNoise,   Scene::kBlocks,    Scene::kBalls,
+                             Scene::kClutter, Scene::kAllMarker, Scene::kHalfMarker};
 
 constexpr std::array kFormats{PixelFormat::kBgr8,     PixelFormat::kRgb8,     PixelFormat::kMono8,
                               PixelFormat::kBayerRg8, PixelFormat::kBayerGr8, PixelFormat::kBayerGb8,
@@ -35,6 +35,10 @@ Picture draw(Scene scene, int width, int height, Random& random) {
   const bool is_green = scene == Scene::kAllMarker;
   picture.fill(is_green ? 50 : 105, is_green ? 190 : 115, is_green ? 55 : 125);
   if (scene == Scene::kBlocks) picture.drawRandomBlocks(random, 8, 0.6);
+  if (scene == Scene::kHalfMarker)
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < (width + 1) / 2; ++x)
+        std::copy_n(std::array<std::uint8_t, 3>{50, 190, 55}.data(), 3, picture.pixel(x, y));
   const int discs = scene == Scene::kBalls ? 4 : scene == Scene::kClutter ? 40 : 0;
   for (int i = 0; i < discs; ++i)
     picture.drawDisc(random.uniform(0, width), random.uniform(0, height), random.uniform(2, 8), 45, 190, 50);

@@ -23,14 +23,14 @@ constexpr double kTouchdownReference = -0.02;  // m: the reference is under the 
 constexpr double kSpinDownRate = 0.5;          // rotor fraction per second
 constexpr double kSettleTime = 1.0;            // s on the ground, after which the rotors may stop at once
 constexpr double kFadeTime = 0.15;             // s: feedback without a pose, to trim
-constexpr double kSinkTime = 0.5;              // s until the open-loop descent has its speed
-constexpr double kSinkThrust = -0.022;         // rotor fraction; a tenth of the weight
+constexpr double kSinkThrust = -0.022;         // rotor fraction; a tenth of the weight: kDescentAcceleration
 constexpr double kHoldSinkThrust = -0.006;     // what the rotors' damping carries at that speed
-constexpr double kFadeThrust = 0.05;           // rotor fraction per second
+constexpr double kFadeThrust = 0.03;           // rotor fraction per second
 constexpr double kDriftTime = 0.3;             // s, of the smoothing of what should stand still
 constexpr double kVelocityNoise = 0.1;         // m/s, of the pose of what stands still
 constexpr double kUnknownDrift = 0.2;          // m/s, of what is not seen
 constexpr double kLongestLiftOff = 20.0;       // s
+constexpr double kFarthestOnSkids = 0.15;      // m, from where the rotors started
 constexpr double kStillSpeed = 0.05;           // m/s
 constexpr double kStillTime = 1.5;             // s: what no longer sinks has landed, on whatever
 
@@ -69,6 +69,8 @@ SupervisorConditions Autopilot::conditions(const AutopilotInput& input, double h
   c.phase = phase_;
   c.pose_known = input.pose_known;
   c.pose_age_s = input.pose_age_s;
+  c.period_s = 1.0 / control_.rate_hz;
+  c.climb = input.state.velocity_in_world.z();
   c.tilt = tiltOf(pose.rotation);
   c.speed = input.state.velocity_in_world.norm();
   c.drift = std::max(drift_.norm(), c.speed - kVelocityNoise);
@@ -76,13 +78,20 @@ SupervisorConditions Autopilot::conditions(const AutopilotInput& input, double h
   c.standing_error = pose.translation.z() - standing_height_;
   c.flight_time_s = flightTime(input.now);
   c.sticks_idle = sticks_ == StickDemand{};
-  c.lift_off_failed = phase_ == FlightPhase::kLiftOff &&
-                      (throttle_ > kHighestThrottle || toSeconds(input.now - phase_since_) > kLongestLiftOff);
+  c.lift_off_failed = liftOffFails(input);
   c.arm = input.commands.arm;
   c.disarm = input.commands.disarm;
   c.kill = input.commands.kill;
   c.health = input.health;
   return c;
+}
+
+bool Autopilot::liftOffFails(const AutopilotInput& input) const {
+  if (phase_ == FlightPhase::kLiftOff)
+    return throttle_ > kHighestThrottle || toSeconds(input.now - phase_since_) > kLongestLiftOff;
+  // Rotors that do not carry it yet cannot move it: it is the pose that is wrong.
+  return phase_ == FlightPhase::kSpinUp && input.pose_age_s <= safety_options_.coast_after_s &&
+         (input.state.world_from_body.translation - started_at_).norm() > kFarthestOnSkids;
 }
 
 void Autopilot::smoothDrift(const AutopilotInput& input) {
@@ -153,7 +162,7 @@ void Autopilot::advance(const AutopilotInput& input, double height) {
       if (ordered) {
         enter(FlightPhase::kTouchdown, input.now);
       } else if (height > kAirborneHeight) {
-        controller_.liftOff(throttle_);
+        controller_.liftOff(throttle_, input.state.velocity_in_world.z(), kThrottleRamp);
         SetPoint here;
         here.position_in_world = input.state.world_from_body.translation;
         here.yaw = yawOf(input.state.world_from_body.rotation);
@@ -198,6 +207,7 @@ void Autopilot::awaitStart(const AutopilotInput& input) {
   if (obstacle != nullptr || toSeconds(input.now - seen_since_) < follower_.plan().start_delay_s) return;
   take_off_pending_ = false;
   started_ = input.now;
+  started_at_ = input.state.world_from_body.translation;
   controller_.reset();
   throttle_ = 0.0;
   rotors_off_ = false;
@@ -274,11 +284,12 @@ StickDemand Autopilot::flyBlind(const AutopilotInput& input) {
   else
     options.feedback = 0.0;
   if (supervisor_.state == SafetyState::kDescending) {
-    // Open loop: sink to the descent speed, hold it against the rotors' damping, and fade the thrust once it
-    // should be down.
+    // Open loop: sink to the descent speed (or brake to it), hold it against the rotors' damping, and fade the
+    // thrust once it should be down.
     const double since = toSeconds(input.now - supervisor_.descending_since);
     const double down = supervisor_.descent_s - kSettleOnSkids;
-    options.extra_thrust = since < kSinkTime ? kSinkThrust : kHoldSinkThrust;
+    const bool has_its_speed = since >= std::abs(supervisor_.sink_s);
+    options.extra_thrust = has_its_speed ? kHoldSinkThrust : std::copysign(kSinkThrust, -supervisor_.sink_s);
     if (since > down) options.extra_thrust -= kFadeThrust * (since - down);
   }
   return controller_.fly(input.state, follower_.setPoint(), options, 1.0 / control_.rate_hz);

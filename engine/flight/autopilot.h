@@ -60,6 +60,7 @@ class Autopilot {
   StickDemand flySighted(const AutopilotInput& input, double height);
   void enter(FlightPhase phase, TimeNs now);
   void awaitStart(const AutopilotInput& input);
+  bool liftOffFails(const AutopilotInput& input) const;
   void smoothDrift(const AutopilotInput& input);
   bool hasTouchedDown(const AutopilotInput& input, double height);
   double flightTime(TimeNs now) const;
@@ -73,6 +74,7 @@ class Autopilot {
   FlightPhase phase_ = FlightPhase::kIdle;
   TimeNs phase_since_ = 0;
   TimeNs started_ = 0;
+  Eigen::Vector3d started_at_ = Eigen::Vector3d::Zero();
   double throttle_ = 0.0;   ///< in hover trims, while on the ground
   double standing_height_;  ///< nominal
   double pad_height_ = 0.0;

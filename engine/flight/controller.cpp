@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kYawIntegralLimit = 0.4;
 constexpr double kHeightIntegralLimit = 0.35;
+// Of the observer of the thrust that carries it: acceleration per rotor fraction [m/s^2], bandwidth [rad/s].
+constexpr double kLift = 45.0, kHoverBandwidth = 3.0;
 constexpr double kLowestThrust = -0.2, kHighestThrust = 0.3;
 
 }  // namespace
@@ -34,6 +36,7 @@ Controller::Controller(const ControllerOptions& options, const HelicopterParamet
 
 void Controller::reset() {
   base_ = thrust_ = height_integral_ = yaw_integral_ = 0.0;
+  hover_thrust_ = thrust_of_motors_ = climb_expected_ = 0.0;
   position_integral_.setZero();
   lag_known_ = false;
 }
@@ -52,9 +55,22 @@ StickDemand Controller::onGround(const HelicopterState& state, double throttle, 
   return mix(0.0, yaw_integral_ - options_.ground_yaw_d * yaw_rate, swash, false, dt);
 }
 
-void Controller::liftOff(double throttle) {
+void Controller::liftOff(double throttle, double climb, double ramp) {
   base_ = throttle;
-  thrust_ = height_integral_ = 0.0;
+  thrust_ = height_integral_ = thrust_of_motors_ = 0.0;
+  climb_expected_ = climb;
+  // Thrust that grows by r per second lifts it to r t^2 / 2 and is by then r t too much.
+  const double thrust_ramp = ramp * trim_lower_;
+  hover_thrust_ = -std::sqrt(2.0 * thrust_ramp * std::max(0.0, climb) / kLift);
+}
+
+/// The throttle at which it left the ground lifts more than the weight, and the height's integral takes seconds to find
+/// out: blind in the climb it would go on up.
+void Controller::learnHoverThrust(double climb, double dt) {
+  thrust_of_motors_ += (1.0 - std::exp(-dt / lower_time_)) * (thrust_ - thrust_of_motors_);
+  const double surprise = climb - climb_expected_;
+  climb_expected_ += dt * (kLift * (thrust_of_motors_ - hover_thrust_) + 2.0 * kHoverBandwidth * surprise);
+  hover_thrust_ -= dt * kHoverBandwidth * kHoverBandwidth / kLift * surprise;
 }
 
 StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_point, const FlyOptions& fly,
@@ -64,6 +80,7 @@ StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_po
   const Eigen::Matrix2d heading = Eigen::Rotation2Dd(-yaw).toRotationMatrix();
 
   const double height_error = set_point.position_in_world.z() - state.world_from_body.translation.z();
+  if (sighted) learnHoverThrust(state.velocity_in_world.z(), dt);
   if (sighted)
     height_integral_ = std::clamp(height_integral_ + options_.height_i * height_error * dt,
                                   -kHeightIntegralLimit, kHeightIntegralLimit);
@@ -72,7 +89,7 @@ StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_po
                      options_.height_d * (set_point.velocity_in_world.z() - state.velocity_in_world.z()) +
                      height_integral_,
                  kLowestThrust, kHighestThrust);
-  thrust_ = height_integral_ + (thrust - height_integral_) * fly.feedback + fly.extra_thrust;
+  thrust_ = hover_thrust_ + (thrust - hover_thrust_) * fly.feedback + fly.extra_thrust;
 
   // A bounded turn towards the heading, and the turn's error to the rotors: spinning is stopped before a
   // heading is sought.

@@ -28,12 +28,14 @@ class Controller {
   /// rate at zero and learns the yaw trim on the way. Swash plate: damping only.
   StickDemand onGround(const HelicopterState& state, double throttle, double dt);
 
-  /// Freezes the throttle at which it left the ground as base of the height loop.
-  void liftOff(double throttle);
+  /// Freezes the throttle at which it left the ground as base of the height loop. `climb` [m/s] is how fast it rises by
+  /// then, `ramp` how fast the throttle was opened [hover trims per second].
+  void liftOff(double throttle, double climb = 0.0, double ramp = 0.0);
 
   struct FlyOptions {
     bool integrate_position = true;  ///< off near the ground
-    double feedback = 1.0;           ///< 1: full; fades to 0 without a pose, when trims alone remain
+    /// 1: full; fades to 0 without a pose, when trims alone remain, and the thrust that carried it when it was seen.
+    double feedback = 1.0;
     double extra_thrust = 0.0;       ///< rotor fraction added to the base, of an open-loop descent
   };
   /// Flies to the set-point.
@@ -45,6 +47,7 @@ class Controller {
   bool spinDown(double rate, double dt, StickDemand& demand);
 
  private:
+  void learnHoverThrust(double climb, double dt);
   StickDemand mix(double thrust, double yaw, const Eigen::Vector2d& swash_in_body, bool lead, double dt);
 
   ControllerOptions options_;
@@ -55,6 +58,8 @@ class Controller {
   double base_ = 0.0;                   // throttle, in hover trims
   double thrust_ = 0.0;                 // last thrust correction
   double height_integral_ = 0.0;
+  double hover_thrust_ = 0.0;  // correction that would keep it from accelerating, as seen
+  double thrust_of_motors_ = 0.0, climb_expected_ = 0.0;  // of the observer behind it
   double yaw_integral_ = 0.0;
   Eigen::Vector2d position_integral_ = Eigen::Vector2d::Zero();  // body heading frame
   double lag_ = 0.0;                                             // of the upper motor's lead

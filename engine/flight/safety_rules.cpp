@@ -24,9 +24,13 @@ bool poseIsOlder(double than_s, const Conditions& c) {
   return c.pose_age_s > than_s;
 }
 
+bool poseWillBeOlder(double than_s, const Conditions& c) {
+  return c.pose_age_s + c.period_s > than_s;
+}
+
 constexpr std::array<SafetyRule, kFailsafeCount> kRules{{
     {Failsafe::kNoPoseCoast, Scope::kRotorsTurn, false,
-     [](const Options& o, const Memory&, const Conditions& c) { return poseIsOlder(o.coast_after_s, c); },
+     [](const Options& o, const Memory&, const Conditions& c) { return poseWillBeOlder(o.coast_after_s, c); },
      nullptr, SafetyState::kCoasting, false, nullptr},
     {Failsafe::kNoPoseDescent, Scope::kRotorsTurn, false,
      [](const Options& o, const Memory&, const Conditions& c) { return poseIsOlder(o.descend_after_s, c); },

@@ -23,14 +23,21 @@ bool inScope(SafetyRule::Scope scope, FlightPhase phase) {
   return true;
 }
 
-/// How long a descent may last is fixed when it begins: where it believes to be later means nothing.
+constexpr double kFastestClimb = 1.5;  // m/s: more is no velocity of a pose that was lost half a second ago
+
+/// How long a descent may last is fixed when it begins: where it believes to be later means nothing. One that climbs
+/// goes on climbing up to an apex, and the way down is from there.
 void trackDescent(const SupervisorOptions& options, const SupervisorConditions& c, SupervisorMemory& memory) {
   if (!rotorsTurn(c.phase) || c.pose_age_s <= options.descend_after_s) {
     memory.descending_since = -1;
   } else if (memory.descending_since < 0) {
     memory.descending_since = c.now;
+    const double climb = std::isfinite(c.climb) ? std::clamp(c.climb, -kFastestClimb, kFastestClimb) : 0.0;
+    const double to_apex_s = std::max(0.0, climb) / kDescentAcceleration;
+    const double apex = c.place.z() + 0.5 * to_apex_s * std::max(0.0, climb);
+    memory.sink_s = (climb + options.descent_speed) / kDescentAcceleration;
     memory.descent_s =
-        std::min(options.longest_descent_s, c.place.z() / options.descent_speed + kSettleOnSkids);
+        std::min(options.longest_descent_s, to_apex_s + apex / options.descent_speed + kSettleOnSkids);
   }
 }
 

@@ -16,6 +16,8 @@ struct SupervisorConditions {
   FlightPhase phase = FlightPhase::kIdle;
   bool pose_known = true;                           ///< was found at least once
   double pose_age_s = 0.0;                          ///< since the last observation that was used
+  double period_s = 0.0;                            ///< until the next tick: too late for a limit that passes before
+  double climb = 0.0;                               ///< m/s, upwards
   double tilt = 0.0;                                ///< rad
   double speed = 0.0;                               ///< m/s
   double drift = 0.0;                               ///< m/s, of the smoothed pose: what stands still has none
@@ -31,7 +33,9 @@ struct SupervisorConditions {
 };
 
 /// An open-loop descent ends this long after it should have reached the ground, in seconds.
-inline constexpr double kSettleOnSkids = 1.0;
+inline constexpr double kSettleOnSkids = 1.5;
+/// By which it gets down to its speed, or brakes a fall to it [m/s^2].
+inline constexpr double kDescentAcceleration = 1.0;
 
 /// What it remembers from tick to tick.
 struct SupervisorMemory {
@@ -50,6 +54,7 @@ struct SupervisorMemory {
   int late_ticks = 0;         ///< in a row
   TimeNs descending_since = -1;
   double descent_s = 0.0;  ///< how long the descent may last, fixed when it begins
+  double sink_s = 0.0;     ///< of that, until it has its speed; negative: so long it is braked to it
   TimeNs cut_since = -1;
   TimeNs armed_since = -1;
   TimeNs unfit_since = -1;  ///< armed on the pad, with a check that fails

@@ -36,10 +36,10 @@ struct SupervisorOptions {
   double uncertain_land_s = 1.0;        ///< of holding: land
 
   double camera_silent_s = 0.1;
-  double camera_clock_s = 1.0;
+  double camera_clock_s = 0.5;
   double overrun_s = 0.010;          ///< of a control tick, three in a row: warn
   double transmitter_fault_s = 0.1;  ///< of failing writes: cut, latched
-  double record_stalled_s = 1.0;
+  double record_stalled_s = 0.8;
 
   double arm_cameras = 2.0;      ///< live and calibrated, at least
   double arm_rate_share = 0.95;  ///< of the frames and control ticks that should have come

@@ -44,10 +44,11 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   const auto index = static_cast<std::size_t>(observation.camera.index());
   count(observation, now);
   health_.onObservation(observation, now);
-  if (now - observation.exposure > kLatest) return;
+  if (now - observation.exposure > kLatest || health_.clockHasJumped(observation.camera)) return;
   const TimeNs last_update = tracker_->lastUpdate();
   tracker_->update(observation, control_set_.estimates(), control_set_.usable(), airborne_);
-  if (tracker_->lastUpdate() != last_update) pose_time_ = now;
+  // Frames that waited for a starved processor are as old as they are.
+  if (tracker_->lastUpdate() != last_update) pose_time_ = std::max(pose_time_, std::min(now, observation.arrival));
   control_set_.learn(observation, *tracker_, airborne_);
   snapshot_.cameras[index].track = tracker_->track(observation.camera);
   work_since_tick_ += stopwatch().now() - begin;

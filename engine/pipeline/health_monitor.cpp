@@ -12,7 +12,6 @@ namespace {
 constexpr double kFade = 0.98;             // of a frame's or tick's weight with each one that follows
 constexpr double kSmoothing = 0.1;         // share of the newest value
 constexpr double kUsualSmoothing = 0.005;  // likewise, of a baseline
-constexpr int kFramesToKnow = 60;          // before a camera's usual latency is known
 constexpr double kSilentIntervals = 3.0;   // a slow camera is not silent between its frames
 constexpr TimeNs kFreshTrack = 100 * kNanosecondsPerMillisecond;
 constexpr double kSmallResidual = 0.5;  // px: less is never a doubt
@@ -51,28 +50,22 @@ HealthMonitor::HealthMonitor(const RigConfig& rig)
 
 void HealthMonitor::onObservation(const Observation& observation, TimeNs now) {
   Camera& camera = cameras_[static_cast<std::size_t>(observation.camera.index())];
-  const double latency = toSeconds(now - observation.exposure);
+  camera.clock.add(observation);
   if (camera.seen) {
     const std::uint64_t step =
         observation.sequence > camera.last_sequence ? observation.sequence - camera.last_sequence : 1;
     camera.came = kFade * camera.came + 1.0;
     camera.missing = kFade * camera.missing + static_cast<double>(step - 1);
     smooth(camera.interval, toSeconds(now - camera.last_seen), kSmoothing);
-    smooth(camera.latency, latency, kSmoothing);
-  } else {
-    camera.latency = latency;
   }
   camera.seen = true;
   camera.last_sequence = observation.sequence;
   camera.last_seen = now;
-  if (camera.frames < kFramesToKnow)
-    camera.usual_latency += (latency - camera.usual_latency) / ++camera.frames;
-  else
-    smooth(camera.usual_latency, latency, kUsualSmoothing);
 }
 
 bool HealthMonitor::isSilent(const Camera& camera, TimeNs now) const {
-  return toSeconds(now - camera.last_seen) >
+  // The next tick would be too late to say so.
+  return toSeconds(now - camera.last_seen) + period_s_ >
          std::max(options_.camera_silent_s, kSilentIntervals * camera.interval);
 }
 
@@ -83,10 +76,8 @@ void HealthMonitor::watchCameras(TimeNs now, std::span<const bool> usable, Syste
     if (!camera.seen) continue;
     const bool silent = isSilent(camera, now);
     health.camera_silent = health.camera_silent || silent;
-    health.camera_clock_off =
-        health.camera_clock_off || (camera.frames >= kFramesToKnow && camera.interval > 0.0 &&
-                                    std::abs(camera.latency - camera.usual_latency) > 0.5 * camera.interval);
-    if (!usable[i] || silent) continue;
+    health.camera_clock_off = health.camera_clock_off || camera.clock.isOff();
+    if (!usable[i] || silent || camera.clock.hasJumped()) continue;
     ++health.live_cameras;
     if (camera.came > 0.0)
       health.frame_share = std::min(health.frame_share, camera.came / (camera.came + camera.missing));

@@ -6,6 +6,7 @@
 #include "engine/config/rig_config.h"
 #include "engine/flight/system_health.h"
 #include "engine/markers/observation.h"
+#include "engine/pipeline/clock_watch.h"
 #include "engine/pipeline/snapshot.h"
 
 namespace helical {
@@ -18,6 +19,8 @@ class HealthMonitor {
   explicit HealthMonitor(const RigConfig& rig);
 
   void onObservation(const Observation& observation, TimeNs now);
+  /// The stamps of its newest frame are wrong: what it shows was somewhere else.
+  bool clockHasJumped(CameraId camera) const { return cameras_[static_cast<std::size_t>(camera.index())].clock.hasJumped(); }
 
   /// Once at each control tick. `usable`: cameras of the control set; `last`: the state after the last tick,
   /// with the newest tracks.
@@ -32,9 +35,7 @@ class HealthMonitor {
     double came = 0.0;      ///< frames, those long ago fading
     double missing = 0.0;   ///< likewise
     double interval = 0.0;  ///< between frames, smoothed [s]
-    double latency = 0.0;   ///< smoothed [s]
-    double usual_latency = 0.0;
-    int frames = 0;
+    ClockWatch clock;
   };
   bool isSilent(const Camera& camera, TimeNs now) const;
   void watchCameras(TimeNs now, std::span<const bool> usable, SystemHealth& health) const;

@@ -24,6 +24,10 @@ constexpr double kLongestPrediction = 1.0;                        // s
 constexpr TimeNs kLongestBack = 30 * kNanosecondsPerMillisecond;  // cameras may be this far out of order
 constexpr TimeNs kRecentView = 100 * kNanosecondsPerMillisecond;
 constexpr double kGapSpeedLimit = 1.5;  // m/s, of the velocity guessed across a gap
+// What nobody saw nobody steered: in a gap its velocity [m/s] and its turning [rad/s] become anything up to this.
+constexpr double kGapSpeedSigma = 0.3, kGapSpeedSigmaPerS = 0.7, kLargestGapSpeedSigma = 1.5;
+constexpr double kGapSpinSigma = 1.0, kGapSpinSigmaPerS = 3.0, kLargestGapSpinSigma = 6.0;
+constexpr double kGapWithoutATurn = 0.2;  // s, over which two headings tell how it turns
 
 using MeasurementMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxMarkers, 2 * kMaxMarkers>;
@@ -95,8 +99,9 @@ void PixelFilter::update(const Observation& observation, std::span<const CameraE
   acquisition_.add(observation);
   const bool gap = toSeconds(observation.exposure - last_update_) > options_.reacquire_after_s;
   if (!acquired_ || gap || agreement_ < kDoubtfulAgreement) {
-    const auto fit =
+    auto fit =
         acquisition_.attempt(observation.exposure, cameras, usable, priorAt(observation.exposure, airborne));
+    if (fit && !isWithinReach(fit->world_from_body.translation, observation.exposure, airborne)) fit.reset();
     if (fit)
       restart(*fit, observation.exposure);
     else if (!acquired_ || gap)
@@ -109,7 +114,7 @@ void PixelFilter::update(const Observation& observation, std::span<const CameraE
   predictFeatures(observation, cameras[index], features);
   nameFeatures(observation, features, track);
   select(observation.camera, cameras[index], features);
-  if (correct(cameras[index], features, airborne)) {
+  if (correctWithinReach(cameras[index], features, airborne)) {
     last_update_ = std::max(last_update_, observation.exposure);
     last_good_ = state_;
   }
@@ -120,6 +125,11 @@ void PixelFilter::update(const Observation& observation, std::span<const CameraE
   const int in_view = std::min(observation.count, markers_.count());
   if (in_view >= 2)
     agreement_ += kAgreementGain * (static_cast<double>(track.selected_count) / in_view - agreement_);
+}
+
+bool PixelFilter::isWithinReach(const Eigen::Vector3d& place, TimeNs time, bool airborne) {
+  if (!acquired_ || !airborne) return true;
+  return jumps_.believes(last_good_.world_from_body.translation, place, toSeconds(time - last_update_));
 }
 
 PosePrior PixelFilter::priorAt(TimeNs time, bool airborne) const {
@@ -142,17 +152,21 @@ PosePrior PixelFilter::priorAt(TimeNs time, bool airborne) const {
 }
 
 void PixelFilter::restart(const PoseFit& fit, TimeNs time) {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  const double gap = toSeconds(time - last_update_);
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();
+  double velocity_sigma = 0.02, spin_sigma = 0.1;
   if (acquired_) {
-    const double gap = std::max(toSeconds(time - last_update_), 0.05);
-    velocity = (fit.world_from_body.translation - last_good_.world_from_body.translation) / gap;
+    velocity = (fit.world_from_body.translation - last_good_.world_from_body.translation) / std::max(gap, 0.05);
     velocity *= std::min(1.0, kGapSpeedLimit / std::max(velocity.norm(), 1e-9));
+    velocity_sigma = std::min(kLargestGapSpeedSigma, kGapSpeedSigma + kGapSpeedSigmaPerS * std::max(0.0, gap));
+    // Between two poses found one soon after the other it turned as they say.
+    if (gap > options_.reacquire_after_s && gap < kGapWithoutATurn)
+      spin = logSO3(last_good_.world_from_body.rotation.conjugate() * fit.world_from_body.rotation) / gap;
+    spin_sigma = std::min(kLargestGapSpinSigma, kGapSpinSigma + kGapSpinSigmaPerS * std::max(0.0, gap));
   }
-  const double velocity_sigma = acquired_ ? 0.3 : 0.02;
-  const double spin_sigma = acquired_ ? 1.0 : 0.1;
   state_.world_from_body = fit.world_from_body;
   state_.velocity_in_world = velocity;
-  state_.angular_velocity_in_body.setZero();
+  state_.angular_velocity_in_body = spin;
   // The views were up to a frame apart while the helicopter moved: a few pixels that the fit's own residual
   // hides.
   const double pixel_sigma = acquired_ ? 3.0 : 0.5;
@@ -290,6 +304,16 @@ void PixelFilter::select(CameraId camera, const CameraEstimate& estimate, Featur
     features[chosen[static_cast<std::size_t>(worst)]].selected = false;
     probation[chosen[static_cast<std::size_t>(worst)]] = kProbation;
   }
+}
+
+bool PixelFilter::correctWithinReach(const CameraEstimate& estimate, const Features& features, bool airborne) {
+  const HelicopterState state = state_;
+  const Matrix12d covariance = covariance_;
+  if (!correct(estimate, features, airborne)) return false;
+  if (isWithinReach(state_.world_from_body.translation, time_, airborne)) return true;
+  state_ = state;
+  covariance_ = covariance;
+  return false;
 }
 
 bool PixelFilter::correct(const CameraEstimate& estimate, const Features& features, bool airborne) {

@@ -6,6 +6,7 @@
 #include "engine/correspondence/prediction_naming.h"
 #include "engine/tracking/acquisition.h"
 #include "engine/tracking/adaptive_noise.h"
+#include "engine/tracking/jump_guard.h"
 #include "engine/tracking/motion_model.h"
 #include "engine/tracking/tracker.h"
 
@@ -16,7 +17,7 @@ namespace helical {
 /// that any number of markers in any number of cameras counts, down to a few in one. Features are selected as
 /// follows: predict the pose and project the balls; gate by Mahalanobis distance; drop the worst until the
 /// rest pass a joint test; let a rejected feature back in after it has agreed twice; coast on the motion
-/// model when none is left. A gap longer than `reacquire_after_s` ends in a new acquisition. Allocates
+/// model when none is left. In the air a place out of reach is not believed. A gap longer than `reacquire_after_s` ends in a new acquisition. Allocates
 /// nothing after construction. One thread.
 class PixelFilter final : public Tracker {
  public:
@@ -49,13 +50,16 @@ class PixelFilter final : public Tracker {
   };
   using Features = std::array<Feature, kMaxMarkers>;
 
+  /// Whether it may have got there since it was last seen; on the ground it may be carried.
+  bool isWithinReach(const Eigen::Vector3d& place, TimeNs time, bool airborne);
   PosePrior priorAt(TimeNs time, bool airborne) const;
   void restart(const PoseFit& fit, TimeNs time);
   void predictFeatures(const Observation& observation, const CameraEstimate& estimate,
                        Features& features) const;
   void nameFeatures(const Observation& observation, Features& features, CameraTrack& track) const;
   void select(CameraId camera, const CameraEstimate& estimate, Features& features);
-  /// Kalman update with the selected features; false if it would not be finite.
+  /// Kalman update with the selected features; false if it would not be finite, or leads out of reach.
+  bool correctWithinReach(const CameraEstimate& estimate, const Features& features, bool airborne);
   bool correct(const CameraEstimate& estimate, const Features& features, bool airborne);
   Matrix6d biasCovariance(TimeNs time) const;
   void report(const Observation& observation, const CameraEstimate& estimate, const Features& features,
@@ -68,6 +72,7 @@ class PixelFilter final : public Tracker {
   MotionModel model_;
   AdaptiveNoise noise_;
   Acquisition acquisition_;
+  JumpGuard jumps_;
 
   bool acquired_ = false;
   TimeNs time_ = 0;

@@ -347,6 +347,42 @@ TEST(Autopilot, BlindDescentEndsSoftlyAndInCut) {
   EXPECT_EQ(flight.output.phase, FlightPhase::kOff) << "a cut is for good";
 }
 
+TEST(Autopilot, APoseThatMovesBeforeTheRotorsCarryItIsCut) {
+  Flight flight;
+  flight.tick(kTakeOff);
+  ASSERT_TRUE(flight.runUntil(FlightPhase::kSpinUp));
+  flight.run(0.3);
+  flight.blind = true;  // states come from here alone
+  flight.input.pose_age_s = -1.0;
+  flight.input.state.world_from_body.translation += Eigen::Vector3d(0.1, 0.0, 0.2);
+  flight.tick();
+  EXPECT_EQ(flight.output.safety, SafetyState::kCut);
+  EXPECT_TRUE(raised(flight.output, Failsafe::kLiftOffFailed));
+  EXPECT_EQ(flight.output.sticks, StickDemand{});
+}
+
+TEST(Autopilot, BlindInTheClimbItComesDownSoftly) {
+  for (const double after : {0.2, 0.5, 1.0, 1.5}) {
+    Flight flight;
+    flight.tick(kTakeOff);
+    ASSERT_TRUE(flight.runUntil(FlightPhase::kFlying));
+    flight.run(after);
+    flight.blind = true;
+    double highest = 0.0;
+    while (flight.output.phase != FlightPhase::kOff && flight.input.now < 40 * kNanosecondsPerSecond) {
+      // What a tracker foretells: it goes on as it went.
+      if (flight.input.pose_age_s < 0.6)
+        flight.input.state.world_from_body.translation += kTick * flight.input.state.velocity_in_world;
+      flight.tick();
+      highest = std::max(highest, flight.height());
+    }
+    flight.run(1.0);
+    EXPECT_LT(flight.height(), 0.02) << after;
+    EXPECT_LT(flight.dynamics.hardestTouch(), 1.0) << after;
+    EXPECT_LT(highest, 1.2) << after << ": it does not climb on";
+  }
+}
+
 TEST(Autopilot, DoesNotOpenTheThrottleOfALiftOffThatNobodySees) {
   Flight flight;
   flight.tick(kTakeOff);

@@ -65,6 +65,33 @@ TEST(Supervisor, CutsWhenTheDescentIsOver) {
   }
 }
 
+TEST(Supervisor, ADescentThatBeginsInAClimbIsTimedFromItsApex) {
+  SupervisedFlight flight;
+  flight.conditions.climb = 0.4;
+  flight.blindFor(0.5 + 2 * kTick);
+  ASSERT_EQ(flight.state(), SafetyState::kDescending);
+  const double to_apex_s = 0.4 / kDescentAcceleration, apex = 0.6 + 0.5 * 0.4 * to_apex_s;
+  EXPECT_NEAR(flight.memory.descent_s, to_apex_s + apex / flight.options.descent_speed + kSettleOnSkids, 1e-9);
+  EXPECT_NEAR(flight.memory.sink_s, to_apex_s + flight.options.descent_speed / kDescentAcceleration, 1e-9);
+}
+
+TEST(Supervisor, ADescentThatBeginsInAFallIsBrakedAndNotLonger) {
+  SupervisedFlight flight;
+  flight.conditions.climb = -0.9;
+  flight.blindFor(0.5 + 2 * kTick);
+  EXPECT_NEAR(flight.memory.descent_s, 0.6 / flight.options.descent_speed + kSettleOnSkids, 1e-9);
+  EXPECT_NEAR(flight.memory.sink_s, -0.4 / kDescentAcceleration, 1e-9);
+}
+
+TEST(Supervisor, SaysThatThereIsNoPoseBeforeItsLimitPasses) {
+  SupervisedFlight flight;
+  flight.conditions.period_s = kTick;
+  flight.conditions.pose_age_s = flight.options.coast_after_s - kTick - 0.001;
+  EXPECT_EQ(flight.tick().alarms, 0u);
+  flight.conditions.pose_age_s = flight.options.coast_after_s - kTick + 0.001;
+  EXPECT_EQ(flight.tick().alarms, bitOf(Failsafe::kNoPoseCoast));
+}
+
 TEST(Supervisor, DescentIsNeverLongerThanItsLimit) {
   SupervisedFlight flight;
   flight.blindFor(0.1);

@@ -1,8 +1,11 @@
-// One usable camera is left for ten seconds: it stays within 0.3 m of where it should be, or lands.
+// One usable camera is left for ten seconds: it stays within 0.3 m of where it should be, or lands. Twenty seeds, or
+// $HELICAL_SEEDS.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
@@ -37,9 +40,12 @@ bool survivesWithOneCamera(std::uint64_t seed) {
 }
 
 TEST(SingleCamera, HoldsForTenSecondsOrLands) {
+  const char* wanted = std::getenv("HELICAL_SEEDS");
+  const int seeds = wanted != nullptr ? std::atoi(wanted) : 20;
   int survived = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) survived += survivesWithOneCamera(seed);
-  EXPECT_GE(survived, 19) << "of 20";
+  for (int seed = 1; seed <= seeds; ++seed) survived += survivesWithOneCamera(static_cast<std::uint64_t>(seed));
+  std::printf("%d of %d\n", survived, seeds);
+  EXPECT_GE(survived, 0.95 * seeds);
 }
 
 }  // namespace

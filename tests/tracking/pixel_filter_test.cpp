@@ -279,6 +279,27 @@ TEST(PixelFilter, FindsItselfAgainAfterAGap) {
   }
 }
 
+/// Blind, nobody keeps it from turning and falling: what is seen after a gap is followed at once all the same.
+TEST(PixelFilter, FollowsWhatTurnsAndFallsAfterAGap) {
+  for (const double turning : {-4.0, 4.0}) {
+    Flight flight(4);
+    flight.runUntil(3.0);
+    flight.spoil = [](Observation& o) { o.count = 0; };
+    flight.runUntil(5.0);
+    flight.spoil = nullptr;
+    const RigidTransform there = flight.motion.at(3.0);
+    flight.truth = [&](double t) {
+      return RigidTransform{there.rotation * expSO3({0, 0, turning * (t - 5.0)}),
+                            there.translation + Vector3d(0.05, 0.0, 0.1 - 0.5 * (t - 5.0))};
+    };
+    flight.runUntil(5.1);
+    const auto [metres, radians] = flight.worstUntil(5.4);
+    EXPECT_LT(metres, 0.02) << turning;
+    EXPECT_LT(radians, 0.15) << turning;
+    EXPECT_LT(toSeconds(fromSeconds(flight.now) - flight.tracker.lastUpdate()), 0.02) << turning;
+  }
+}
+
 /// A pose that is wrong by a quarter turn explains an almost square layout in part only: it is left.
 TEST(PixelFilter, LeavesAPoseThatExplainsTooLittle) {
   Flight flight(5);

@@ -34,7 +34,8 @@ json timesJson(const Interval& median, const Interval& p90) {
 /// All keys that every condition has: missing values are null, never left out.
 json emptyCondition(const std::string& name) {
   json condition{{"name", name}, {"calibrator", "joint"}};
-  for (const char* key : {"rmse_over_crlb", "orientation_rmse_over_crlb", "success", "success_ci95", "time_to_1cm_s",
+  for (const char* key : {"rmse_over_crlb", "orientation_rmse_over_crlb",
+                          "rmse_over_crlb_of_true_centroids", "success", "success_ci95", "time_to_1cm_s",
                           "nees", "nees_in_band", "step_us"})
     condition[key] = nullptr;
   return condition;
@@ -60,6 +61,7 @@ json conditionJson(const CalibrationResult& result) {
   condition["calibrator"] = result.condition.calibrator;
   condition["rmse_over_crlb"] = ratiosJson(result, &CalibrationResult::positionRatio);
   condition["orientation_rmse_over_crlb"] = ratiosJson(result, &CalibrationResult::orientationRatio);
+  condition["rmse_over_crlb_of_true_centroids"] = ratiosJson(result, &CalibrationResult::positionOverTrueBound);
   condition["success"] = success.value;
   condition["success_ci95"] = {success.low, success.high};
   condition["time_to_1cm_s"] = timesJson(result.convergedQuantile(0.5), result.convergedQuantile(0.9));
@@ -159,7 +161,7 @@ std::string calibrationReportText(const CalibrationReport& report) {
     text += "\nWithin 1 cm: and 0.5 degrees, at 13 s. NEES: 6 where the covariance is true.\n";
   }
   if (!report.knocks.empty()) {
-    text += "\nOne camera of three in control is knocked (about a random axis); seconds after it\n"
+    text += "\nOne camera of three in control is knocked (small knocks about an axis across the line of sight); seconds after it\n"
             "                           found within           found           within 1 cm for good   in again   "
             "   alarms of\n"
             "knock            limit         (95 %)         median    p90   median    p90   median    p90   others\n";

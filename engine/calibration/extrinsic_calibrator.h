@@ -51,6 +51,10 @@ class ExtrinsicCalibrator {
   /// Takes in one frame. A frame with too few pixels for the method is data, not an error.
   virtual void step(const CalibrationFrame& frame) = 0;
 
+  /// Learns on from an estimate that others found from frames up to now, instead of its own. False for methods that
+  /// cannot, and while it does not know its place: it is as it was.
+  virtual bool goOnFrom(const CameraEstimate&) { return false; }
+
   /// Pose and covariance as of the last step, always with status kCalibrating: which camera may be used is
   /// decided by one rule for all methods (engine/calibration/admission.h).
   virtual CameraEstimate estimate() const = 0;

@@ -58,7 +58,28 @@ void JointCalibrator::forget() {
   locked_ = current_named_ = false;
   learnt_frames_ = learnt_variance_ = 0.0;
   learnt_from_ = learnt_to_ = 0;
+  known_.setZero();
   fitting_ = 1.0;
+}
+
+bool JointCalibrator::goOnFrom(const CameraEstimate& estimate) {
+  const double learnt_s = toSeconds(learnt_to_ - learnt_from_);
+  const Eigen::LDLT<Matrix6d> factor(estimate.covariance);
+  if (!locked_ || !(learnt_s > 0.0) || !factor.isPositive() || !(factor.vectorD().minCoeff() > 0.0)) return false;
+  // Frames to come tell less than the smoother takes them for, by what lasting offsets inflate in the long run:
+  // so what is known already has to weigh as much more.
+  const double per_time_constant = learnt_frames_ * options_.lasting.time_s / learnt_s;
+  const double centroid_variance = learnt_variance_ / learnt_frames_;
+  const double weight =
+      1.0 + 2.0 * per_time_constant * options_.lasting.sigma_px * options_.lasting.sigma_px / centroid_variance;
+  const Matrix6d known = factor.solve(Matrix6d::Identity());
+  forget();
+  locked_ = true;
+  known_ = 0.5 * (known + known.transpose());
+  known_weight_ = weight;
+  smoother_.start(estimate.camera_from_world, known_weight_ * known_);
+  estimate_ = {estimate.camera_from_world, estimate.covariance, CameraStatus::kCalibrating};
+  return true;
 }
 
 std::span<const LabelledPixel> JointCalibrator::named() const {
@@ -138,7 +159,13 @@ void JointCalibrator::learn() {
   const Eigen::LDLT<Matrix6d> factor(smoother_.information());
   if (!factor.isPositive() || !(factor.vectorD().minCoeff() > 0.0)) return;
   estimate_.camera_from_world = smoother_.pose();
-  estimate_.covariance = noiseInflation() * factor.solve(Matrix6d::Identity());
+  const Matrix6d covariance = factor.solve(Matrix6d::Identity());
+  const double inflation = noiseInflation();
+  estimate_.covariance = inflation * covariance;
+  if (known_.isZero(0.0)) return;
+  // Of a weighted mean of what was known and of the frames since.
+  const double beyond = known_weight_ * (known_weight_ - inflation);
+  estimate_.covariance += beyond * covariance * known_ * covariance;
 }
 
 void JointCalibrator::countNoise(const UnnamedFrame& frame) {

@@ -40,6 +40,7 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   const char* name() const override { return "joint"; }
   void restart(const RigidTransform& initial_guess) override;
   void step(const CalibrationFrame& frame) override;
+  bool goOnFrom(const CameraEstimate& estimate) override;
   CameraEstimate estimate() const override { return estimate_; }
   bool namesCentroids() const override { return true; }
   bool knowsItsPlace() const override { return locked_; }
@@ -67,6 +68,8 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   bool current_named_ = false;
   TimeNs learnt_from_ = 0, learnt_to_ = 0;
   double learnt_frames_ = 0.0, learnt_variance_ = 0.0;  ///< of centroids, summed over the frames [px^2]
+  Matrix6d known_ = Matrix6d::Zero();  ///< information that it went on from
+  double known_weight_ = 1.0;          ///< with which the smoother has that
   double fitting_ = 1.0;  ///< running share of the balls that were found where they should be
   StoredFrame named_;     ///< the newest that the smoother took in
   RigidTransform guess_;

@@ -18,16 +18,17 @@ constexpr double kMedianToScale = 2.5;    // 1.18 sigma is the median of a good 
 constexpr double kMedianSquared = 1.386;  // of a chi-square of 2 degrees of freedom
 constexpr double kInlierSigmas = 6.0;
 constexpr double kSeedRmsPx = 2.0,
-                 kSeedSigmas = 8.0;  // whichever is more: how badly a seed may fit its frame
+                 kSeedSigmas = 4.0;  // whichever is more: how badly a seed may fit its frame
 constexpr double kSeedRotation = 0.02, kSeedPosition = 0.06;  // how far off a planar pose may be [rad, m]
 constexpr double kSameRotation = 0.02, kSamePosition = 0.06;
 constexpr int kIterations = 12;
-constexpr int kFairIterations = 4;
+constexpr int kFairIterations = 3;
 constexpr double kHopelessChi2 = 200.0;
 constexpr double kSettledDecrease = 0.05;  // squared sigmas
 constexpr double kFarthestM = 50.0;
 constexpr int kSeedings = 3, kSeedingPause = 5, kLaterPause = 60;
 constexpr int kFewestCentroids = 3;
+constexpr int kPatience = 45;  // frames without all balls and them alone, before one less or more will do
 
 double robustCost(double squared, double scale) {
   const double limit = scale * scale;
@@ -83,8 +84,8 @@ Matrix6d JointSearch::Hypothesis::covariance() const {
 void JointSearch::clear() {
   store_.clear();
   waiting_count_ = 0;
-  seeds_ = AffineSeeds(camera_, markers_);
-  since_seeding_ = seedings_ = 0;
+  seeds_.stop();
+  since_seeding_ = seedings_ = since_whole_ = 0;
   count_ = in_round_count_ = 0;
   in_round_ = decided_ = false;
 }
@@ -98,15 +99,16 @@ void JointSearch::step(const UnnamedFrame& frame, int units) {
   }
   waiting_[static_cast<std::size_t>(waiting_count_++)] = frame;
   if (!in_round_) beginRound();
-  while (units > 0) {
+  const int each = std::max(1, static_cast<int>(store_.frames().size()));
+  do {
     Hypothesis* next = unsettled();
     if (next == nullptr) {
       endRound();
       return;
     }
     improve(*next);
-    units -= static_cast<int>(store_.frames().size());
-  }
+    units -= each;
+  } while (units >= each);
 }
 
 bool JointSearch::wantsSeeds() const {
@@ -116,10 +118,17 @@ bool JointSearch::wantsSeeds() const {
   return since_seeding_ >= kLaterPause;
 }
 
+/// A ball may be hidden for good, or a lamp be taken for one.
+bool JointSearch::canSeed(int centroids) {
+  since_whole_ = centroids == markers_.count() ? 0 : since_whole_ + 1;
+  return since_whole_ == 0 || (since_whole_ > kPatience && seeds_.accepts(centroids));
+}
+
 void JointSearch::seed(const UnnamedFrame& frame) {
   ++since_seeding_;
+  const bool suitable = canSeed(frame.observation.count);
   if (seeds_.done()) {
-    if (frame.observation.count != markers_.count() || !wantsSeeds()) return;
+    if (!suitable || !wantsSeeds()) return;
     std::array<Eigen::Vector2d, kMaxMarkers> pixels;
     for (int c = 0; c < frame.observation.count; ++c)
       pixels[static_cast<std::size_t>(c)] = frame.observation.centroids[static_cast<std::size_t>(c)].pixel;

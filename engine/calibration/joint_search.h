@@ -5,7 +5,7 @@
 
 #include "engine/calibration/joint_frame.h"
 #include "engine/calibration/thinned_store.h"
-#include "engine/correspondence/affine_seed.h"
+#include "engine/correspondence/subset_seeds.h"
 
 namespace helical {
 
@@ -39,8 +39,8 @@ class JointSearch {
 
   void clear();
 
-  /// One frame's share of the work, in units of one frame looked at under one hypothesis: no more than
-  /// `kMaxFrames` beyond `units`.
+  /// One frame's share of the work, in units of one frame looked at under one hypothesis: no more than `units`, or
+  /// one look at all kept frames.
   void step(const UnnamedFrame& frame, int units);
 
   /// Where the camera may be; between rounds the best one is the first.
@@ -80,6 +80,7 @@ class JointSearch {
   Hypothesis evaluate(const RigidTransform& pose, const Matrix6d& covariance, double scale) const;
   void prune();
   bool wantsSeeds() const;
+  bool canSeed(int centroids);
 
   JointSearchOptions options_;
   CameraModel camera_;
@@ -87,9 +88,10 @@ class JointSearch {
   ThinnedStore<UnnamedFrame> store_;
   std::array<UnnamedFrame, kMaxFrames> waiting_;  ///< came during a round, which needs the same frames
   int waiting_count_ = 0;
-  AffineSeeds seeds_;
+  SubsetSeeds seeds_;
   RigidTransform seed_world_from_body_;
   int since_seeding_ = 0, seedings_ = 0;
+  int since_whole_ = 0;  ///< frames since one had as many centroids as there are balls
   std::array<Hypothesis, kMaxHypotheses> hypotheses_;
   int count_ = 0;
   int in_round_count_ = 0;  ///< the first ones: those that were there when the round began

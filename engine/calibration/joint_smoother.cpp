@@ -44,11 +44,12 @@ JointSmoother::JointSmoother(const JointSmootherOptions& options, const CameraMo
       markers_(markers),
       ring_(static_cast<std::size_t>(options.kept_frames + kSlack)) {}
 
-void JointSmoother::start(const RigidTransform& camera_from_world) {
+void JointSmoother::start(const RigidTransform& camera_from_world, const Matrix6d& known) {
   first_ = kept_count_ = 0;
   frames_ = next_pass_ = last_pass_ = 0;
   linearisation_ = pose_ = camera_from_world;
   sum_ = condensed_ = {};
+  sum_.hessian = condensed_.hessian = known;
   ahead_.setZero();
   passing_ = false;
 }

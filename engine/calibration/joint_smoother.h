@@ -23,8 +23,8 @@ class JointSmoother {
  public:
   JointSmoother(const JointSmootherOptions& options, const CameraModel& camera, const MarkerLayout& markers);
 
-  /// Forgets all frames.
-  void start(const RigidTransform& camera_from_world);
+  /// Forgets all frames. `known`: information about that pose from elsewhere.
+  void start(const RigidTransform& camera_from_world, const Matrix6d& known = Matrix6d::Zero());
 
   void add(const StoredFrame& frame);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "engine/base/require.h"
@@ -12,18 +13,25 @@ namespace {
 
 constexpr TimeNs kSameTime = 25 * kNanosecondsPerMillisecond;
 constexpr TimeNs kLongestFrame = 40 * kNanosecondsPerMillisecond;  // on average over a track
-constexpr int kFewestBalls = 3;
+constexpr std::size_t kFewestBalls = 3;
 constexpr int kFewestCameras = 3;
 constexpr double kPerSecond = 10.0;  // unit of time of the fit: its matrix is well scaled
 constexpr double kLargestMisfit = 2.5;  // over a centroid's variance: one false centroid among them is more
+// Centroids' noise is learnt over so many frames, from what their covariance claims; so is the helicopter's motion.
+constexpr double kNoiseFrames = 120, kMotionFrames = 500;
+constexpr double kLeastNoise = 0.25, kMostNoise = 2.0;  // variance over the one claimed
+constexpr double kMotionAllowance = 4.0;  // variance of the motion that a step must not be taken for, over the usual one
 // On average over all cameras: more is a jolt of the helicopter, which no parabola follows.
 constexpr double kCalmMisfit = 1.4;
-constexpr double kMedianLoss = 1.3;  // variance of the median of a few over that of their mean
+constexpr double kLeastJerkM = 1e-6;
+constexpr double kAlikeSigmas = 3.0;  // from the median: balls whose steps count
+constexpr double kChosenLoss = 1.05;  // variance of the mean of those over that of all
 
 struct BallStep {
-  Eigen::Vector2d pixels;
+  Eigen::Vector2d pixels = Eigen::Vector2d::Zero();
   double variance = 0.0;  ///< over that of a centroid
   double misfit = 0.0;    ///< variance of what is left, per axis [px^2]
+  double of_cube = 0.0;   ///< step that time cubed would give
 };
 
 /// Least squares of a parabola and a step along one ball's track.
@@ -33,32 +41,64 @@ class TrackFit {
     const Eigen::Vector4d row(1.0, time, time * time, after ? 0.5 : -0.5);
     normal_.noalias() += row * row.transpose();
     right_.noalias() += row * pixel.transpose();
+    cubes_.noalias() += row * (time * time * time);
     squares_ += pixel.squaredNorm();
     ++count_[after];
   }
-  std::optional<BallStep> step(int fewest) const {
-    if (count_[0] < fewest || count_[1] < fewest) return std::nullopt;
+  /// Nothing where more than one frame before or after is missing.
+  std::optional<BallStep> step(int before, int after) const {
+    if (count_[0] < before - 1 || count_[1] < std::max(2, after - 1)) return std::nullopt;
     const Eigen::LDLT<Eigen::Matrix4d> factor(normal_);
     const Eigen::Vector4d column = factor.solve(Eigen::Vector4d::UnitW());
     if (!column.allFinite() || !(column[3] > 0.0)) return std::nullopt;
     const Eigen::Matrix<double, 4, 2> solution = factor.solve(right_);
     const double left = squares_ - solution.cwiseProduct(right_).sum();
-    return BallStep{right_.transpose() * column, column[3], left / (2.0 * (count_[0] + count_[1] - 4))};
+    return BallStep{right_.transpose() * column, column[3], left / (2.0 * (count_[0] + count_[1] - 4)),
+                    cubes_.dot(column)};
   }
 
  private:
   Eigen::Matrix4d normal_ = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 2> right_ = Eigen::Matrix<double, 4, 2>::Zero();
+  Eigen::Vector4d cubes_ = Eigen::Vector4d::Zero();
   double squares_ = 0.0;
   std::array<int, 2> count_{};
 };
 
-double median(std::array<double, kMaxMarkers>& values, std::size_t count) {
+double median(std::array<double, kMaxMarkers> values, std::size_t count) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
   if (count % 2 == 1) return *middle;
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
+
+/// Balls' steps, without those that are off the others'.
+class StepsOfBalls {
+ public:
+  void add(const BallStep& ball) {
+    x_[count_] = ball.pixels.x();
+    y_[count_++] = ball.pixels.y();
+  }
+  std::size_t count() const { return count_; }
+  /// `sigma`: of one ball's step, per axis.
+  std::optional<Eigen::Vector2d> mean(double sigma, std::size_t fewest) const {
+    const Eigen::Vector2d middle(median(x_, count_), median(y_, count_));
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    std::size_t alike = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Eigen::Vector2d step(x_[i], y_[i]);
+      if (!((step - middle).cwiseAbs().maxCoeff() < kAlikeSigmas * sigma)) continue;
+      sum += step;
+      ++alike;
+    }
+    if (alike < fewest) return std::nullopt;
+    return sum / static_cast<double>(alike);
+  }
+
+ private:
+  std::array<double, kMaxMarkers> x_{}, y_{};
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -83,38 +123,43 @@ void StepDetector::forget(CameraId camera) {
   for (Step& step : forgotten.steps) step.known = false;
 }
 
-StepDetector::Step StepDetector::measure(const Camera& camera, int side) const {
+StepDetector::Step StepDetector::measure(const Camera& camera, const Window& window) const {
   Step step;
-  if (camera.count < 2 * side) return step;
-  const TimeNs first = camera.ago(2 * side - 1).exposure, last = camera.ago(0).exposure;
-  if (last - first > 2 * side * kLongestFrame) return step;
-  step.time = (camera.ago(side).exposure + camera.ago(side - 1).exposure) / 2;
-  std::array<double, kMaxMarkers> x, y;
-  std::size_t balls = 0;
-  double variance = 0.0;
+  const int length = window.before + window.after;
+  if (camera.count < length) return step;
+  const TimeNs first = camera.ago(length - 1).exposure, last = camera.ago(0).exposure;
+  if (last - first > length * kLongestFrame) return step;
+  step.time = (camera.ago(window.after).exposure + camera.ago(window.after - 1).exposure) / 2;
+  StepsOfBalls steps;
+  double variance = 0.0, of_cube = 0.0;
   const double floor = options_.floor_px * options_.floor_px;
+  const double noise = camera.noise * (camera.ago(0).variance + floor);
   for (std::size_t m = 0; m < kMaxMarkers; ++m) {
     TrackFit fit;
     std::optional<Eigen::Vector2d> origin;  // nothing is to be lost to large numbers
-    for (int f = 0; f < 2 * side; ++f) {
+    for (int f = 0; f < length; ++f) {
       const NamedBalls& frame = camera.ago(f);
       if (!frame.seen[m]) continue;
       const Eigen::Vector2d pixel = frame.pixels[m].cast<double>();
       if (!origin) origin = pixel;
-      fit.add(kPerSecond * toSeconds(frame.exposure - step.time), f < side, pixel - *origin);
+      fit.add(kPerSecond * toSeconds(frame.exposure - step.time), f < window.after, pixel - *origin);
     }
-    const auto ball = fit.step(side - 1);
-    if (!ball || ball->misfit > kLargestMisfit * (camera.ago(0).variance + floor)) continue;
-    x[balls] = ball->pixels.x();
-    y[balls++] = ball->pixels.y();
+    const auto ball = fit.step(window.before, window.after);
+    if (!ball || ball->misfit > kLargestMisfit * noise) continue;
+    steps.add(*ball);
     variance += ball->variance;
-    step.misfit += ball->misfit / (camera.ago(0).variance + floor);
+    of_cube += ball->of_cube;
+    step.misfit += ball->misfit / noise;
   }
-  if (balls < kFewestBalls) return step;
-  const double each = variance / static_cast<double>(balls) * camera.ago(0).variance;
-  step.misfit /= static_cast<double>(balls);
-  step.pixels = {median(x, balls), median(y, balls)};
-  step.variance = kMedianLoss * each / static_cast<double>(balls) + floor;
+  if (steps.count() < kFewestBalls) return step;
+  const auto balls = static_cast<double>(steps.count());
+  const double each = variance / balls * noise;
+  const auto pixels = steps.mean(std::sqrt(each + floor), kFewestBalls);
+  if (!pixels) return step;
+  step.pixels = *pixels;
+  step.misfit /= balls;
+  step.variance = kChosenLoss * each / balls + floor;
+  step.of_jerk_s3 = std::abs(of_cube / balls) / (6.0 * kPerSecond * kPerSecond * kPerSecond);
   step.known = true;
   return step;
 }
@@ -126,12 +171,18 @@ int StepDetector::add(CameraId id, const NamedBalls& balls, const Eigen::Matrix<
   camera.next = (camera.next + 1) % kKept;
   camera.count = std::min(camera.count + 1, kKept);
   camera.d_world = d_world;
-  for (std::size_t scale = 0; scale < kSides.size(); ++scale) {
-    camera.steps[scale] = measure(camera, kSides[scale]);
-    if (!camera.steps[scale].known) continue;
-    if (const int moved = judge(index, scale); moved >= 0 && confirmed(moved, balls.exposure)) return moved;
+  for (std::size_t window = 0; window < kWindows.size(); ++window) {
+    camera.steps[window] = measure(camera, kWindows[window]);
+    if (!camera.steps[window].known) continue;
+    learnNoise(camera, camera.steps[window]);
+    if (const int moved = judge(index, window); moved >= 0 && confirmed(moved, balls.exposure)) return moved;
   }
   return -1;
+}
+
+void StepDetector::learnNoise(Camera& camera, const Step& step) {
+  const double misfit = std::min(step.misfit, kCalmMisfit);
+  camera.noise = std::clamp(camera.noise * (1.0 + (misfit - 1.0) / kNoiseFrames), kLeastNoise, kMostNoise);
 }
 
 bool StepDetector::confirmed(int suspect, TimeNs now) {
@@ -141,43 +192,55 @@ bool StepDetector::confirmed(int suspect, TimeNs now) {
   return again;
 }
 
-int StepDetector::judge(std::size_t newest, std::size_t scale) const {
-  const TimeNs time = cameras_[newest].steps[scale].time;
-  std::array<std::size_t, kMaxCameras> together;
-  std::size_t count = 0;
-  for (std::size_t c = 0; c < kMaxCameras; ++c) {
-    const Step& step = cameras_[c].steps[scale];
-    if (step.known && time - step.time < kSameTime && step.time - time < kSameTime) together[count++] = c;
-  }
-  if (count < kFewestCameras) return -1;
-  // A constant jerk over T before and after the middle looks like a step of jerk T^3 / 30.
-  const Camera& own = cameras_[newest];
-  const double side_s = 0.5 * toSeconds(own.ago(0).exposure - own.ago(2 * kSides[scale] - 1).exposure);
-  const double jerk_m = options_.jerk_m_s3 * side_s * side_s * side_s / 30.0;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Identity() / (jerk_m * jerk_m);
+StepDetector::Motion StepDetector::motionOf(std::span<const std::size_t> cameras, std::size_t window,
+                                            double prior_m2) const {
+  Motion motion;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity() / prior_m2;
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double chi2 = 0.0, misfit = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Camera& camera = cameras_[together[i]];
-    const Step& step = camera.steps[scale];
-    misfit += step.misfit / static_cast<double>(count);
+  for (const std::size_t c : cameras) {
+    const Camera& camera = cameras_[c];
+    const Step& step = camera.steps[window];
     information.noalias() += camera.d_world.transpose() * camera.d_world / step.variance;
     right.noalias() += camera.d_world.transpose() * step.pixels / step.variance;
-    chi2 += step.pixels.squaredNorm() / step.variance;
+    motion.chi2 += step.pixels.squaredNorm() / step.variance;
   }
-  const Eigen::Matrix3d covariance = information.inverse();
-  const Eigen::Vector3d shift = covariance * right;
-  chi2 -= shift.dot(right);
-  if (chi2 < options_.alarm_chi2 || misfit > kCalmMisfit) return -1;
+  motion.covariance = information.inverse();
+  motion.shift = motion.covariance * right;
+  motion.chi2 -= motion.shift.dot(right);
+  return motion;
+}
+
+int StepDetector::judge(std::size_t newest, std::size_t window) {
+  const TimeNs time = cameras_[newest].steps[window].time;
+  std::array<std::size_t, kMaxCameras> together;
+  std::size_t count = 0;
+  double misfit = 0.0;
+  for (std::size_t c = 0; c < kMaxCameras; ++c) {
+    const Step& step = cameras_[c].steps[window];
+    if (!step.known || time - step.time >= kSameTime || step.time - time >= kSameTime) continue;
+    together[count++] = c;
+    misfit += step.misfit;
+  }
+  if (count < kFewestCameras || misfit > kCalmMisfit * static_cast<double>(count)) return -1;
+  const std::span<const std::size_t> cameras(together.data(), count);
+  // No more than what the largest jerk looks like, and no more than the helicopter usually does.
+  const double jerk_m = std::max(kLeastJerkM, options_.jerk_m_s3 * cameras_[newest].steps[window].of_jerk_s3);
+  double& usual_m2 = usual_motion_m2_[window];
+  if (!(usual_m2 > 0.0)) usual_m2 = jerk_m * jerk_m;
+  const double prior_m2 = std::min(jerk_m * jerk_m, kMotionAllowance * usual_m2);
+  usual_m2 += (motionOf(cameras, window, jerk_m * jerk_m).shift.squaredNorm() / 3.0 - usual_m2) / kMotionFrames;
+  usual_m2 = std::max(usual_m2, kLeastJerkM * kLeastJerkM);
+  const Motion motion = motionOf(cameras, window, prior_m2);
+  if (motion.chi2 < options_.alarm_chi2) return -1;
   double best = 0.0, second = 0.0;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Camera& camera = cameras_[together[i]];
-    const Step& step = camera.steps[scale];
-    const Eigen::Vector2d unexplained = (step.pixels - camera.d_world * shift) / step.variance;
+    const Step& step = camera.steps[window];
+    const Eigen::Vector2d unexplained = (step.pixels - camera.d_world * motion.shift) / step.variance;
     const Eigen::Matrix2d own_information =
         Eigen::Matrix2d::Identity() / step.variance -
-        camera.d_world * covariance * camera.d_world.transpose() / (step.variance * step.variance);
+        camera.d_world * motion.covariance * camera.d_world.transpose() / (step.variance * step.variance);
     const double explained = unexplained.dot(own_information.inverse() * unexplained);
     if (explained > best) {
       second = best;
@@ -188,8 +251,8 @@ int StepDetector::judge(std::size_t newest, std::size_t scale) const {
     }
   }
   const double rest = options_.rest_chi2 * static_cast<double>(count - 1);
-  if (best < options_.alarm_chi2 || best - second < options_.margin_chi2 || chi2 - best > rest) return -1;
-  return cameras_[moved].steps[scale].pixels.norm() >= options_.smallest_px ? static_cast<int>(moved) : -1;
+  if (best < options_.alarm_chi2 || best - second < options_.margin_chi2 || motion.chi2 - best > rest) return -1;
+  return cameras_[moved].steps[window].pixels.norm() >= options_.smallest_px ? static_cast<int>(moved) : -1;
 }
 
 }  // namespace helical

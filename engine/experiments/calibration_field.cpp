@@ -18,7 +18,7 @@ constexpr double kNamingSigmaPx = 6.0;  // how far from its true place a ball ma
 constexpr double kNamingGateChi2 = 14.0;
 constexpr double kRobustSigmas = 4.0;
 constexpr double kInlierSigmas = 5.0;
-constexpr int kFewestInliers = 5;
+constexpr int kFewestInliers = 5;  // of fewer, one false ball bends the pose and fits
 
 /// Twice low-pass filtered noise.
 class Wander {
@@ -88,6 +88,8 @@ std::vector<RigidTransform> fly(const CalibrationFieldOptions& options, Random r
 struct Look {
   Observation observation;
   std::array<MarkerId, kMaxMarkers> truth;
+  std::array<MarkerId, kMaxMarkers> not_thrown;  ///< those in their places
+  std::size_t not_thrown_count = 0;
 };
 
 class Eye {
@@ -119,6 +121,7 @@ class Eye {
     if (!pixel || !camera_.contains(*pixel) || dropped) return;
     const auto index = static_cast<std::size_t>(look.observation.count++);
     look.truth[index] = marker;
+    if (!thrown) look.not_thrown[look.not_thrown_count++] = marker;
     Centroid& centroid = look.observation.centroids[index];
     centroid.pixel = *pixel + (thrown ? aside : Eigen::Vector2d(options.sigma_px * noise));
     centroid.covariance = options.sigma_px * options.sigma_px * Eigen::Matrix2d::Identity();
@@ -171,6 +174,20 @@ std::span<const MarkerId> seenBy(const Look& look) {
   return {look.truth.data(), static_cast<std::size_t>(look.observation.count)};
 }
 
+std::span<const MarkerId> trulySeenBy(const Look& look) {
+  return {look.not_thrown.data(), look.not_thrown_count};
+}
+
+/// One frame's share of a bound: `seen` by the learner and by the two that know their places.
+void addToBound(const CameraModel& camera, const RigidTransform& learner, const std::array<Eye, 2>& eyes,
+                const CalibrationFieldOptions& options, const RigidTransform& truth,
+                const std::array<std::span<const MarkerId>, 3>& seen, CramerRaoBound& bound) {
+  Matrix6d information = Matrix6d::Zero();
+  for (std::size_t c = 0; c < 2; ++c)
+    information += poseInformation(camera, eyes[c].pose(), options.markers, seen[c], truth, options.sigma_px);
+  bound.add(camera, learner, options.markers, seen[2], truth, information, options.sigma_px);
+}
+
 }  // namespace
 
 CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationFieldOptions& options) {
@@ -188,7 +205,7 @@ CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationF
   off.tail<3>() = options.guess_position * randomDirection(places);
   field.guess = perturbCamera(field.camera_from_world, off);
 
-  CramerRaoBound bound;
+  CramerRaoBound bound, true_bound;
   for (const RigidTransform& truth : fly(options, random.fork(5))) {
     CalibrationField::Frame& frame = field.frames.emplace_back();
     const std::array<Look, 2> looks{eyes[0].look(truth, options), eyes[1].look(truth, options)};
@@ -204,14 +221,14 @@ CalibrationField simulateCalibrationField(std::uint64_t seed, const CalibrationF
       frame.known_views[c] = namedView(looks[c], views[c].names, options.markers.count(), options.sigma_px);
     frame.has_pose = fit.ok;
     frame.world_from_body = fit.world_from_body;
+    frame.true_world_from_body = truth;
     if (fit.ok) frame.pose_covariance = options.sigma_px * options.sigma_px * fit.information.inverse();
-    Matrix6d information = Matrix6d::Zero();
-    for (std::size_t c = 0; c < 2; ++c)
-      information += poseInformation(field.camera, eyes[c].pose(), options.markers, seenBy(looks[c]), truth,
-                                     options.sigma_px);
-    bound.add(field.camera, field.camera_from_world, options.markers, seenBy(own), truth, information,
-              options.sigma_px);
+    addToBound(field.camera, field.camera_from_world, eyes, options, truth,
+               {seenBy(looks[0]), seenBy(looks[1]), seenBy(own)}, bound);
+    addToBound(field.camera, field.camera_from_world, eyes, options, truth,
+               {trulySeenBy(looks[0]), trulySeenBy(looks[1]), trulySeenBy(own)}, true_bound);
     if (const auto now = bound.bound()) frame.bound = *now;
+    if (const auto now = true_bound.bound()) frame.true_bound = *now;
   }
   return field;
 }

@@ -31,11 +31,13 @@ struct CalibrationField {
   struct Frame {
     bool has_pose = false;  ///< the first two cameras saw enough
     RigidTransform world_from_body;
+    RigidTransform true_world_from_body;
     Matrix6d pose_covariance = Matrix6d::Zero();
     Observation observation;  ///< of the third camera, without names
     std::array<RigMoment::View, 2> known_views;  ///< of the first two, named
     std::array<LabelledPixel, kMaxMarkers> labelled;
     CalibrationBound bound;  ///< Cramer-Rao, of all frames so far; false balls count as if they were true
+    CalibrationBound true_bound;  ///< the same of the true balls alone: who knew which are false could not do better
 
     CalibrationFrame view() const {
       return {observation.exposure,

@@ -53,13 +53,14 @@ CalibratorOptions methodOptions() {
   return options;
 }
 
-void note(const CameraEstimate& estimate, const CalibrationField& field, const CalibrationBound& bound,
+void note(const CameraEstimate& estimate, const CalibrationField& field, const CalibrationField::Frame& frame,
           std::size_t mark, CalibrationRun& run) {
   const Vector6d error = cameraPerturbation(estimate.camera_from_world, field.camera_from_world);
   run.orientation[mark] = error.head<3>().norm();
   run.position_m[mark] = error.tail<3>().norm();
-  run.bound_position_m[mark] = bound.position_m;
-  run.bound_orientation[mark] = bound.orientation_rad;
+  run.bound_position_m[mark] = frame.bound.position_m;
+  run.bound_orientation[mark] = frame.bound.orientation_rad;
+  run.true_bound_position_m[mark] = frame.true_bound.position_m;
   run.nees[mark] = error.dot(estimate.covariance.ldlt().solve(error));
 }
 
@@ -125,7 +126,7 @@ CalibrationRun calibrateOnce(const CalibrationCondition& condition, std::uint64_
     if (condition.self_calibrates) addMoment(frame, *calibrator, moments);
     if (mark == kStudyMarksS.size() || now_s < kStudyMarksS[mark] - 1e-6) continue;
     if (condition.self_calibrates) estimate = selfCalibrated(field, options.markers, moments, estimate);
-    note(estimate, field, frame.bound, mark++, run);
+    note(estimate, field, frame, mark++, run);
   }
   const auto kept = static_cast<std::ptrdiff_t>(run.slowest_steps.size() / 50);
   std::partial_sort(run.slowest_steps.begin(), run.slowest_steps.begin() + kept, run.slowest_steps.end(),
@@ -154,6 +155,10 @@ Interval rootRatio(const std::vector<CalibrationRun>& runs, std::array<double, 3
 
 Interval CalibrationResult::positionRatio(std::size_t mark) const {
   return rootRatio(runs, &CalibrationRun::position_m, &CalibrationRun::bound_position_m, mark);
+}
+
+Interval CalibrationResult::positionOverTrueBound(std::size_t mark) const {
+  return rootRatio(runs, &CalibrationRun::position_m, &CalibrationRun::true_bound_position_m, mark);
 }
 
 Interval CalibrationResult::orientationRatio(std::size_t mark) const {

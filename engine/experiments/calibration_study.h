@@ -23,6 +23,7 @@ inline const double kGoodPlaceRad = toRadians(0.5);
 struct CalibrationRun {
   std::array<double, 3> position_m{}, orientation{};  ///< errors [m, rad]
   std::array<double, 3> bound_position_m{}, bound_orientation{};
+  std::array<double, 3> true_bound_position_m{};  ///< of the true balls alone
   std::array<double, 3> nees{};      ///< 6 on average where the covariance is true
   double converged_s = 0.0;          ///< first within 1 cm and 0.5 degrees; infinite if never
   double step_us_sum = 0.0;          ///< thread CPU time
@@ -46,6 +47,8 @@ struct CalibrationResult {
   /// Root mean square error over root mean square bound at a mark.
   Interval positionRatio(std::size_t mark) const;
   Interval orientationRatio(std::size_t mark) const;
+  /// The same over the bound of the true balls alone.
+  Interval positionOverTrueBound(std::size_t mark) const;
   /// Within 1 cm and 0.5 degrees at the last mark.
   Proportion success() const;
   Interval convergedQuantile(double fraction) const;

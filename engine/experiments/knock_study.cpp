@@ -36,7 +36,8 @@ KnockRun knockOnce(RigConfig rig, const KnockCondition& condition, std::uint64_t
   const auto knocked = static_cast<std::size_t>(seed % rig.cameras.size());
   rig.simulation.seed = seed;
   rig.simulation.images = false;
-  const Bump bump{cameraId(static_cast<int>(knocked)), kKnockedAtS, condition.angle, condition.distance};
+  const Bump bump{cameraId(static_cast<int>(knocked)), kKnockedAtS, condition.angle, condition.distance,
+                  condition.across};
   rig.simulation.bumps = {bump};
   KnockRun run{kInfinite, 0.0, kInfinite, 0};
   hover(rig, kKnockedAtS + kWatchedS, [&](const EngineSnapshot& now) {
@@ -104,8 +105,8 @@ int KnockResult::othersFound() const {
 
 std::vector<KnockCondition> knockConditions() {
   return {{"knock-5deg", toRadians(5.0), 0.05, 0.25},
-          {"knock-0.2deg", toRadians(0.2), 0.005, 0.1},
-          {"knock-0.05deg", toRadians(0.05), 0.001, 1.0}};
+          {"knock-0.2deg", toRadians(0.2), 0.005, 0.1, true},
+          {"knock-0.05deg", toRadians(0.05), 0.001, 1.0, true}};
 }
 
 KnockResult studyKnocks(const RigConfig& rig, const KnockCondition& condition, int runs, std::uint64_t first_seed,

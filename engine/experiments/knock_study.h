@@ -12,9 +12,10 @@ namespace helical {
 /// Flights in which one camera of three or more in control is knocked at `kKnockedAtS`, image-free.
 struct KnockCondition {
   std::string name;
-  double angle = 0.0;     ///< rad, about a random axis
+  double angle = 0.0;     ///< rad
   double distance = 0.0;  ///< m
   double limit_s = 0.0;   ///< within which it should be found
+  bool across = false;    ///< about an axis perpendicular to the line of sight; else about any
 };
 inline constexpr double kKnockedAtS = 10.0;
 

@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -97,6 +99,39 @@ Eigen::Quaterniond nearestRotation(const Eigen::Matrix3d& m) {
   return Eigen::Quaterniond(rotation);
 }
 
+/// Whether all points lie before the camera under this homography. Where noise has put a point over the line of two
+/// others, it bends the plane through the camera instead.
+bool seesAll(const Eigen::Matrix3d& homography, std::span<const Eigen::Vector3d> points) {
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    return homography.row(2).dot(Eigen::Vector3d(point.x(), point.y(), 1.0)) > 0.0;
+  });
+}
+
+/// As if all points were equally far away: rough, but hardly moved by noise.
+RigidTransform byWeakPerspective(std::span<const Eigen::Vector3d> points, std::span<const Eigen::Vector2d> bearings,
+                                 const Eigen::Vector3d& centre) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& bearing : bearings) middle += bearing / static_cast<double>(bearings.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero(), image = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d from_centre = (points[i] - centre).head<2>();
+    spread += from_centre * from_centre.transpose();
+    image += (bearings[i] - middle) * from_centre.transpose();
+  }
+  const Eigen::Matrix2d affine = image * spread.inverse();
+  const double per_metre = Eigen::JacobiSVD<Eigen::Matrix2d>(affine).singularValues()[0];
+  const Eigen::Matrix2d seen = affine / per_metre;
+  const Eigen::Array2d depth = (1.0 - seen.colwise().squaredNorm().transpose().array()).max(0.0).sqrt();
+  Eigen::Matrix3d axes;
+  axes.col(0) << seen.col(0), depth[0];
+  axes.col(1) << seen.col(1), std::copysign(depth[1], -seen.col(0).dot(seen.col(1)));
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  RigidTransform pose;
+  pose.rotation = nearestRotation(axes);
+  pose.translation = Eigen::Vector3d(middle.x(), middle.y(), 1.0) / per_metre - pose.rotation * centre;
+  return pose;
+}
+
 }  // namespace
 
 PlanarPoses solvePlanarPnp(const CameraModel& camera, std::span<const Eigen::Vector3d> points,
@@ -125,6 +160,10 @@ PlanarPoses solvePlanarPnp(const CameraModel& camera, std::span<const Eigen::Vec
   RigidTransform first;
   first.rotation = nearestRotation(axes);
   first.translation = h.col(2) - first.rotation * Eigen::Vector3d(0, 0, points[0].z());
+  if (!seesAll(h, points)) {
+    const RigidTransform rough = byWeakPerspective(points, {bearings.data(), points.size()}, centre);
+    if (rough.translation.allFinite() && rough.rotation.coeffs().allFinite()) first = rough;
+  }
   result.poses[0] = refine(camera, points, pixels, first);
 
   // The mirror image: the plane's normal reflected about the line of sight to its centre.

@@ -113,6 +113,13 @@ bool CameraCalibration::accept() {
   return true;
 }
 
+bool CameraCalibration::goOnFrom(const CameraEstimate& estimate) {
+  if (!calibrator_->goOnFrom(estimate)) return false;
+  admission_.status = CameraStatus::kCalibrated;
+  doubtful_since_ = -1;
+  return true;
+}
+
 void CameraCalibration::step(const Observation& observation, const TrackedState& helicopter) {
   CalibrationFrame frame{
       observation.exposure, helicopter.state.world_from_body, helicopter.pose_covariance, {}, &observation};

@@ -35,6 +35,9 @@ class CameraCalibration {
   /// when it disagrees. False if it does not know its place, or disagrees already.
   bool accept();
 
+  /// Learns on from what others found for it, as admitted; false, and nothing changes, if its method cannot.
+  bool goOnFrom(const CameraEstimate& estimate);
+
   /// One frame, and the helicopter at its exposure as the other cameras have it.
   void step(const Observation& observation, const TrackedState& helicopter);
 

@@ -65,7 +65,7 @@ void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   if (!calibration) return;
   calibrations_[index].swap(calibration);
   if (!learning_[index]) return;
-  refining_[index] = false;
+  refining_[index] = refined_[index] = false;
   estimates_[index] = calibrations_[index]->estimate();
   bounds_[index].restart();
   refreshUsable();
@@ -118,8 +118,8 @@ const CameraCalibration* ControlSet::calibration(CameraId camera) const {
 
 const char* ControlSet::method(CameraId camera) const {
   const std::size_t index = indexOf(camera);
-  if (learning_[index]) return calibrations_[index]->calibrator().name();
   if (refined_[index]) return "refined";
+  if (learning_[index]) return calibrations_[index]->calibrator().name();
   return found_by_cold_start_[index] ? "cold-start" : nullptr;
 }
 

@@ -114,7 +114,7 @@ class ControlSet {
   std::array<bool, kMaxCameras> found_by_cold_start_{};  ///< or are to be
   std::unique_ptr<RigRefinement> refinement_;
   std::array<bool, kMaxCameras> refining_{};  ///< takes part, and nothing else happened to it since
-  std::array<bool, kMaxCameras> refined_{};   ///< stands where the refinement found it
+  std::array<bool, kMaxCameras> refined_{};   ///< the refinement found it, and it learns on from there or stands
   std::vector<std::unique_ptr<Tracker>> teachers_;  ///< [r] sees with cameras of rank below r alone
 };
 

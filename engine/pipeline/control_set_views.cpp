@@ -76,7 +76,7 @@ const char* ControlSet::startRefinement() {
   return nullptr;
 }
 
-/// Cameras that are known as well by it as they were, or better.
+/// Cameras that are known as well by it as they were, or better. One that learns goes on from there.
 void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
   const double reach_m = AdmissionOptions().reach_m;
   for (std::size_t i = 0; i < cameras_; ++i) {
@@ -89,7 +89,10 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
     const double alone = uncertaintyAround(models_[i], estimates_[i], helicopter_in_world, reach_m);
     if (!admissible || doubt > kWorseThanAlone * alone) continue;
     found_by_cold_start_[i] = false;
-    place(i, found);
+    if (learning_[i] && calibrations_[i]->goOnFrom(found))
+      estimates_[i] = calibrations_[i]->estimate();
+    else
+      place(i, found);
     refined_[i] = true;
   }
 }

@@ -64,7 +64,8 @@ json simulationJson(const SimulationOptions& simulation) {
     bumps.push_back({{"camera", bump.camera.index()},
                      {"at_s", bump.at_s},
                      {"angle_rad", bump.angle},
-                     {"distance_m", bump.distance}});
+                     {"distance_m", bump.distance},
+                     {"across", bump.across}});
   return {{"seed", simulation.seed},
           {"images", simulation.images},
           {"gust_factor", simulation.gust_factor},
@@ -99,7 +100,8 @@ void applySimulation(const json& value, RigConfig& rig) {
   simulation.bumps.clear();
   for (const auto& bump : value.at("bumps"))
     simulation.bumps.push_back({cameraOf(bump.at("camera"), rig), bump.at("at_s").get<double>(),
-                                bump.at("angle_rad").get<double>(), bump.at("distance_m").get<double>()});
+                                bump.at("angle_rad").get<double>(), bump.at("distance_m").get<double>(),
+                                bump.value("across", false)});
 }
 
 void applySettings(const json& value, SessionSettings& settings) {

@@ -14,9 +14,12 @@ Eigen::Vector3d randomDirection(Random& random) {
   return Eigen::Vector3d(x, y, z).normalized();
 }
 
-RigidTransform moved(const RigidTransform& camera_from_world, double angle, double distance, Random& random) {
+RigidTransform moved(const RigidTransform& camera_from_world, double angle, double distance, bool across,
+                     Random& random) {
+  Eigen::Vector3d axis = randomDirection(random);
+  if (across) axis = Eigen::Vector3d(axis.x(), axis.y(), 0.0).normalized();
   Vector6d perturbation;
-  perturbation.head<3>() = angle * randomDirection(random);
+  perturbation.head<3>() = angle * axis;
   perturbation.tail<3>() = distance * randomDirection(random);
   return perturbCamera(camera_from_world, perturbation);
 }
@@ -25,7 +28,7 @@ RigidTransform moved(const RigidTransform& camera_from_world, double angle, doub
 
 RigidTransform displaced(const RigidTransform& camera_from_world, double angle, double distance,
                          Random random) {
-  return moved(camera_from_world, angle, distance, random);
+  return moved(camera_from_world, angle, distance, false, random);
 }
 
 CameraDisturbances::CameraDisturbances(CameraId camera, const SimulationOptions& options,
@@ -39,7 +42,7 @@ CameraDisturbances::CameraDisturbances(CameraId camera, const SimulationOptions&
   std::sort(bumps.begin(), bumps.end(), [](const Bump& a, const Bump& b) { return a.at_s < b.at_s; });
   RigidTransform pose = camera_from_world;
   for (const auto& bump : bumps) {
-    pose = moved(pose, bump.angle, bump.distance, random);
+    pose = moved(pose, bump.angle, bump.distance, bump.across, random);
     knocks_.push_back({bump.at_s, pose});
   }
 }

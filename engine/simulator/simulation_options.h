@@ -22,6 +22,7 @@ struct Bump {
   double at_s = 0.0;
   double angle = 0.0;     ///< rad
   double distance = 0.0;  ///< m
+  bool across = false;    ///< the axis lies in the image plane: a turn about the line of sight hardly shows
 };
 
 /// Image-free observations: what the extractor makes of rendered images, as numbers. Fitted to the renderer;

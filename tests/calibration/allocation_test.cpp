@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
+#include "engine/base/random.h"
 #include "engine/calibration/admission.h"
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/calibration/cold_start.h"
 #include "engine/calibration/cramer_rao.h"
+#include "engine/geometry/rotation.h"
 #include "tests/calibration/training_flight.h"
 #include "tests/support/allocation_counter.h"
 
@@ -42,6 +46,65 @@ TEST(Allocation, NorDoAdmissionAndBound) {
   }
   EXPECT_EQ(test::allocations() - before, 0);
   EXPECT_GT(sum, 0.0);
+}
+
+/// Two metres and a half away, a third of the circle apart, looking at a point above the pad.
+RigidTransform coldCamera(std::size_t index) {
+  const double azimuth = 2.0944 * static_cast<double>(index) - 0.5, elevation = 0.7;
+  const Eigen::Vector3d away(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                             std::sin(elevation));
+  const Eigen::Vector3d z = -away, x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d rows;
+  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
+  RigidTransform pose;
+  pose.rotation = Eigen::Quaterniond(rows).normalized();
+  pose.translation = -(pose.rotation * (Eigen::Vector3d(0.0, 0.0, 0.3) + 2.5 * away));
+  return pose;
+}
+
+/// Two seconds on the pad, then carried about.
+RigidTransform carriedTo(double time_s) {
+  const double t = std::max(0.0, time_s - 2.0), grown = std::min(1.0, t);
+  RigidTransform pose;
+  pose.translation = {0.3 * grown * std::sin(1.1 * t), 0.3 * grown * std::sin(0.7 * t),
+                      0.06 + 0.25 * grown * (1.0 - std::cos(0.9 * t))};
+  pose.rotation = expSO3({0.15 * grown * std::sin(1.7 * t), 0.15 * grown * std::sin(1.3 * t), 0.4 * std::sin(0.5 * t)});
+  return pose;
+}
+
+Observation seenBy(const CameraModel& model, std::size_t camera, const MarkerLayout& markers, double time_s,
+                   Random& random) {
+  Observation observation;
+  observation.camera = cameraId(static_cast<int>(camera));
+  observation.exposure = fromSeconds(time_s);
+  for (const Eigen::Vector3d& ball : markers.all()) {
+    const auto pixel = model.project(coldCamera(camera) * (carriedTo(time_s) * ball));
+    if (!pixel) continue;
+    Centroid& centroid = observation.centroids[static_cast<std::size_t>(observation.count++)];
+    centroid.pixel = *pixel + 0.1 * Eigen::Vector2d(random.normal(), random.normal());
+    centroid.covariance = 0.01 * Eigen::Matrix2d::Identity();
+  }
+  return observation;
+}
+
+TEST(Allocation, NorDoesAColdStart) {
+  const CameraModel model(640, 480, 567.6, 567.6, 319.5, 239.5);
+  const MarkerLayout markers = MarkerLayout::paper();
+  const std::vector<CameraEstimate> nothing(3);
+  ColdStart start({model, model, model}, markers, 0.06, nothing);
+  Random random(3);
+  int answers = 0;
+  const long before = test::allocations();
+  for (int frame = 0; frame < 60 * 20; ++frame)
+    for (std::size_t camera = 0; camera < 3; ++camera) {
+      const double time_s = (frame + 0.3 * static_cast<double>(camera) + 1.0) / 60.0;
+      start.step(seenBy(model, camera, markers, time_s, random));
+      answers += start.takeAnswer();
+    }
+  EXPECT_EQ(test::allocations() - before, 0);
+  EXPECT_GE(answers, 1);
+  for (std::size_t camera = 0; camera < 3; ++camera)
+    EXPECT_LT(test::positionError(start.answer()[camera].camera_from_world, coldCamera(camera)), 0.02) << camera;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/random.h"
 #include "engine/calibration/calibrator_factory.h"
 #include "engine/calibration/cramer_rao.h"
 #include "engine/geometry/camera_perturbation.h"
@@ -99,6 +100,90 @@ TEST(Joint, ASymmetricSquareAtRestDecidesNothing) {
       ASSERT_TRUE(calibrator->named().empty()) << "seed " << seed;
     }
   }
+}
+
+/// A layout of six, of which one is never seen, or of which one has a lamp of their colour beside it for good.
+MarkerLayout six() {
+  std::array<Eigen::Vector3d, 6> balls;
+  const std::array<Eigen::Vector2d, 6> places{
+      {{0.18, 0.12}, {-0.15, 0.08}, {-0.12, -0.16}, {0.05, -0.10}, {0.02, 0.15}, {0.15, -0.04}}};
+  for (std::size_t i = 0; i < 6; ++i) balls[i] = {places[i].x(), places[i].y(), -0.05};
+  return MarkerLayout(balls, 0.018);
+}
+
+double errorAfter(const TrainingFlight& flight) {
+  const auto calibrator = makeCalibrator("joint", whiteNoise(), flight.camera, flight.markers, 1);
+  calibrator->restart(flight.guess);
+  for (const auto& frame : flight.frames) calibrator->step(frame.view());
+  return test::positionError(calibrator->estimate().camera_from_world, flight.camera_from_world);
+}
+
+TEST(Joint, FindsItsPlaceBesideALampThatLooksLikeABall) {
+  for (const MarkerLayout& markers : {asymmetric(), six()})
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      TrainingFlight flight = flyForTraining(5000 + seed, {.duration_s = 13.0, .drop_outs = 0.0, .markers = markers});
+      for (auto& frame : flight.frames) {
+        Centroid& lamp = frame.observation.centroids[static_cast<std::size_t>(frame.observation.count++)];
+        lamp.pixel = {80.0 + 100.0 * static_cast<double>(seed), 60.0};
+        lamp.covariance = 0.25 * Eigen::Matrix2d::Identity();
+      }
+      EXPECT_LT(errorAfter(flight), 0.02) << markers.count() << " balls, seed " << seed;
+    }
+}
+
+TEST(Joint, FindsItsPlaceThoughABallIsNeverSeen) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    TrainingFlight flight = flyForTraining(6000 + seed, {.duration_s = 13.0, .markers = six()});
+    const auto hidden = markerId(static_cast<int>(seed));
+    for (auto& frame : flight.frames) {
+      Observation seen = frame.observation;
+      seen.count = 0;
+      for (const LabelledPixel& pixel : frame.pixels)
+        if (pixel.marker != hidden) {
+          Centroid& centroid = seen.centroids[static_cast<std::size_t>(seen.count++)];
+          centroid.pixel = pixel.pixel;
+          centroid.covariance = pixel.covariance;
+        }
+      frame.observation = seen;
+    }
+    EXPECT_LT(errorAfter(flight), 0.02) << "seed " << seed;
+  }
+}
+
+TEST(Joint, LearnsOnFromWhatOthersFound) {
+  constexpr int kFlights = 40;
+  Random random(8);
+  double nees = 0.0, alone = 0.0, together = 0.0;
+  for (std::uint64_t seed = 0; seed < kFlights; ++seed) {
+    const TrainingFlight flight = flyForTraining(7000 + seed, {.duration_s = 8.0, .markers = asymmetric()});
+    const auto calibrator = makeCalibrator("joint", whiteNoise(), flight.camera, flight.markers, 1);
+    const auto other = makeCalibrator("joint", whiteNoise(), flight.camera, flight.markers, 1);
+    EXPECT_FALSE(calibrator->goOnFrom(calibrator->estimate())) << "it does not know its place";
+    calibrator->restart(flight.guess);
+    other->restart(flight.guess);
+    CameraEstimate found;
+    found.covariance.diagonal() << Eigen::Vector3d::Constant(1e-7), Eigen::Vector3d::Constant(1e-6);
+    Vector6d off;
+    for (int i = 0; i < 6; ++i) off[i] = std::sqrt(found.covariance(i, i)) * random.normal();
+    found.camera_from_world = perturbCamera(flight.camera_from_world, off);
+    for (std::size_t f = 0; f < flight.frames.size(); ++f) {
+      if (f == 300) {
+        ASSERT_TRUE(calibrator->goOnFrom(found));
+        EXPECT_EQ(calibrator->estimate().camera_from_world.translation, found.camera_from_world.translation);
+      }
+      calibrator->step(flight.frames[f].view());
+      other->step(flight.frames[f].view());
+    }
+    const CameraEstimate estimate = calibrator->estimate();
+    const Vector6d error = cameraPerturbation(estimate.camera_from_world, flight.camera_from_world);
+    nees += error.dot(estimate.covariance.ldlt().solve(error)) / kFlights;
+    together += error.tail<3>().squaredNorm();
+    alone += off.tail<3>().squaredNorm();
+    const double before_m2 = found.covariance.diagonal().tail(3).sum();
+    EXPECT_LT(estimate.covariance.diagonal().tail(3).sum(), before_m2);
+  }
+  EXPECT_NEAR(nees, 6.0, 2.6 * std::sqrt(12.0 / kFlights));
+  EXPECT_LT(together, 0.8 * alone);
 }
 
 TEST(Joint, SearchesAnewWhenTheCameraIsSomewhereElse) {

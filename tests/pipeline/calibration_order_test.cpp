@@ -151,6 +151,14 @@ TEST(CalibrationOrder, ARefinedCameraStandsWhereAllOfThemTogetherSay) {
       refined += std::string_view(flight.camera(c).calibration_method) == "refined";
       EXPECT_EQ(flight.camera(c).estimate.status, CameraStatus::kCalibrated);
     }
+    const auto known = [&] {
+      double sum = 0.0;
+      for (std::size_t c = 2; c < 8; ++c) sum += flight.camera(c).estimate.covariance.trace();
+      return sum;
+    };
+    const double after_refinement = known();
+    flight.run(3 * kSecond);
+    EXPECT_LT(known(), after_refinement) << "they learn on";
   }
   EXPECT_GE(refined, 16);
   std::printf("eight cameras: %.2f mm before the refinement, %.2f mm after it\n",

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -61,6 +63,17 @@ TEST(CameraDisturbances, KnockTurnsAndShiftsByWhatWasAskedFor) {
     EXPECT_EQ(same.translation, once.translation);
     EXPECT_NEAR(once.rotation.angularDistance(twice.rotation), 0.1, 1e-9);
     EXPECT_NEAR((once.inverseTranslation() - twice.inverseTranslation()).norm(), 0.02, 1e-9);
+  }
+}
+
+TEST(CameraDisturbances, KnockAcrossTurnsTheLineOfSight) {
+  SimulationOptions options;
+  options.bumps = {{kCamera, 3.0, 0.2, 0.0, true}};
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const CameraDisturbances knocked = disturbed(options, seed);
+    const Eigen::Quaterniond before = knocked.cameraFromWorld(2.9).rotation, after = knocked.cameraFromWorld(3.0).rotation;
+    const Eigen::Vector3d sight = before.conjugate() * Eigen::Vector3d::UnitZ();
+    EXPECT_NEAR((after * sight).dot(Eigen::Vector3d::UnitZ()), std::cos(0.2), 1e-9);
   }
 }
 

@@ -14,18 +14,32 @@ constexpr double kLeastChroma = 12.0;  ///< levels: below, a ball is told by its
 constexpr float kLeastScale = 0.7F;    ///< levels: quantisation and what the model leaves out
 constexpr double kLeastContrast = 8.0;
 constexpr int kSteps = 6;
-constexpr int kRounds = 2;
-constexpr double kUnknowns = kDiscParameters;
-/// Share of the contrast that residuals may have: a ball with a pattern or smeared by its motion is no shaded
-/// disc, and its centre of gravity is the steadier estimate.
+constexpr int kRounds = 3;
+/// Share of the contrast that residuals may have beyond noise: a ball with a pattern or smeared by its motion
+/// is no shaded disc, and its centre of gravity is the steadier estimate.
 constexpr double kWorstMisfit = 0.12;
 constexpr double kLongTail = 1.8;  ///< mean square over that of a normal distribution: something does not fit
 constexpr double kSettled = 3e-3;  ///< cells: a smaller step is the last
+constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle through an outline
+/// Directed over ambient light: with less, nobody knows which side is dark, and a shadow that turns with the
+/// noise keeps the fit from settling.
+constexpr float kFlat = 0.15F;
 constexpr int kRays = 24;
-constexpr double kRound = 0.4;  ///< cells that a point of a ball's outline may lie off its circle
 
-using Normal = Eigen::Matrix<double, kDiscParameters, kDiscParameters>;
-using Vector = Eigen::Matrix<double, kDiscParameters, 1>;
+/// The unknowns: those of the model, and of a second channel the ball's level over that of the first, and the
+/// level around it.
+constexpr int kRatio = kDiscParameters, kSecondAround = kRatio + 1, kUnknowns = kSecondAround + 1;
+constexpr double kUneven = 3.0;       ///< scatter of the brightness over that of the colour that is too much
+constexpr float kOutside = 3.5F;      ///< scales: what lies farther off is no noise
+constexpr double kSeenOutline = 0.5;  ///< share of the outline that the brightness must show
+constexpr double kDisagreement = 16.0;  ///< chi-square between colour and both
+
+using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+using ModelNormal = Eigen::Matrix<double, kDiscParameters, kDiscParameters>;
+using ModelVector = Eigen::Matrix<double, kDiscParameters, 1>;
+
+const Eigen::Vector3d kGrey = Eigen::Vector3d::Constant(0.5773502691896258);
 
 /// Directions of the rays: the corners of a polygon, by Pythagorean half angles, without trigonometry.
 constexpr auto kDirections = [] {
@@ -44,33 +58,119 @@ constexpr auto kDirections = [] {
   return directions;
 }();
 
-void assemble(const DiscSums& sums, double prior, double light_z, Normal& normal, Vector& gradient) {
-  for (int a = 0; a < kDiscParameters; ++a) {
-    const auto i = static_cast<std::size_t>(a);
-    for (int b = 0; b <= a; ++b) normal(a, b) = normal(b, a) = sums.normal[i][static_cast<std::size_t>(b)];
-    normal(a, a) += 1e-9;
-    gradient[a] = sums.gradient[i];
-  }
-  normal(kDiscLightZ, kDiscLightZ) += prior;
-  gradient[kDiscLightZ] -= prior * light_z;
+/// Sorts some of them.
+float median(std::span<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+ModelNormal normalOf(const DiscSums& sums) {
+  ModelNormal normal;
+  for (int a = 0; a < kDiscParameters; ++a)
+    for (int b = 0; b <= a; ++b)
+      normal(a, b) = normal(b, a) = sums.normal[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+  return normal;
 }
 
 }  // namespace
 
-DiscFit::DiscFit() : cells_(std::make_unique<DiscCells>()) {}
+/// The normal equations at the current parameters.
+struct DiscFit::System {
+  Normal normal = Normal::Zero();
+  Vector gradient = Vector::Zero();
+  double count = 0.0;  ///< of the values
+  double squares = 0.0;
+};
+
+DiscFit::DiscFit() : colour_(std::make_unique<DiscCells>()), brightness_(std::make_unique<DiscCells>()) {}
 
 std::optional<Disc> DiscFit::fit(const CellGrid& grid, const Region& region) {
   if (!readWindow(grid, region)) return std::nullopt;
+  const auto by_colour = fitColour();
+  return by_colour && has_colour_ ? withBrightness(*by_colour) : by_colour;
+}
+
+std::optional<std::array<Disc, 2>> DiscFit::fitTwo(const CellGrid& grid, const Region& region) {
+  if (!OverlapSplit::mayBeTwo(region) || !readWindow(grid, region)) return std::nullopt;
+  const ValueWindow values = window(region);
+  auto pair = split_.circles(values);
+  if (!pair) return std::nullopt;
+  std::array<Region, 2> parts{OverlapSplit::partOf(values, (*pair)[0], (*pair)[1]),
+                              OverlapSplit::partOf(values, (*pair)[1], (*pair)[0])};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Region& part = parts[i];
+    part.sum_x += part.area * left_;
+    part.sum_y += part.area * top_;
+    part.left += left_, part.right += left_, part.top += top_, part.bottom += top_;
+    (*pair)[i].centre.x += left_;
+    (*pair)[i].centre.y += top_;
+  }
+  return std::array<Disc, 2>{fitPart(grid, parts[0], (*pair)[0], (*pair)[1]),
+                             fitPart(grid, parts[1], (*pair)[1], (*pair)[0])};
+}
+
+Disc DiscFit::fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine,
+                      const OutlineCircle& other) {
+  neighbour_ = other;
+  std::optional<Disc> disc;
+  if (readWindow(grid, part)) {
+    binary_ = {{mine.centre.x - left_, mine.centre.y - top_}, mine.radius};
+    disc = fitColour();
+    if (disc && has_colour_) disc = withBrightness(*disc);
+  }
+  neighbour_.reset();
+  if (disc) return *disc;
+  Disc outline;
+  outline.centre = {mine.centre.x, mine.centre.y};
+  outline.covariance = kOutlineSigma * kOutlineSigma * Eigen::Matrix2d::Identity();
+  outline.radius = mine.radius;
+  outline.seen_share = std::min(1.0, static_cast<double>(part.area) / (kPi * mine.radius * mine.radius));
+  return outline;
+}
+
+ValueWindow DiscFit::window(const Region& region) {
+  std::size_t count = 0;
+  const auto size = static_cast<std::size_t>(width_ * height_), area = static_cast<std::size_t>(region.area);
+  std::copy_n(values_.begin(), size, sorted_.begin());
+  const auto middle =
+      sorted_.begin() + static_cast<std::ptrdiff_t>(size - std::max<std::size_t>(1, area / 2));
+  std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(size));
+  const float ball = *middle;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1)
+        sorted_[count++] = values_[static_cast<std::size_t>(y * width_ + x)];
+  return {values_.data(), width_, height_, 0.5F * (ball + median(std::span(sorted_.data(), count)))};
+}
+
+float DiscFit::givenAt(double x, double y) const {
+  if (!neighbour_) return 1.0F;
+  const double dx = left_ + x - neighbour_->centre.x, dy = top_ + y - neighbour_->centre.y,
+               reach = neighbour_->radius + 1.0;
+  return dx * dx + dy * dy < reach * reach ? 0.0F : 1.0F;
+}
+
+std::optional<Disc> DiscFit::fitColour() {
   start(binary_);
-  std::array<Point, kRays> room;
+  std::array<OutlinePoint, kRays> room;
   const std::span outline(room.data(), static_cast<std::size_t>(traceOutline(room)));
-  if (descend(kSteps) && isPlausible() && fitsEverywhere()) return result();
-  start(bestCircle(outline).value_or(binary_));
+  if (descend(kSteps) && isPlausible() && fitsEverywhere())
+    if (const auto disc = result()) return disc;
+  start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
     leaveOutHidden();
     if (!descend(kSteps) || !isPlausible()) return std::nullopt;
   }
   return result();
+}
+
+std::optional<Disc> DiscFit::withBrightness(const Disc& by_colour) {
+  if (!startBrightness() || !descend(kSteps) || !isPlausible()) return by_colour;
+  const auto by_both = result();
+  if (!by_both) return by_colour;
+  const Eigen::Vector2d apart = by_both->centre - by_colour.centre;
+  return apart.squaredNorm() < kDisagreement * by_colour.covariance.trace() ? *by_both : by_colour;
 }
 
 bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
@@ -85,11 +185,12 @@ bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
       std::sqrt(area / kPi) + 0.3};
   const Eigen::Vector3d axis =
       grid.layout == CellLayout::kBytes ? Eigen::Vector3d::UnitX() : colourAxis(grid, region);
+  has_colour_ = grid.layout != CellLayout::kBytes && axis != kGrey;
   const double middle_x = 0.5 * (region.left + region.right) - left_;
   const double middle_y = 0.5 * (region.top + region.bottom) - top_;
   const double reach = 0.5 * std::max(region.right - region.left, region.bottom - region.top) + 0.5 + kReach;
   std::array<std::uint8_t, 3> cell{};
-  DiscCells& cells = *cells_;
+  DiscCells& cells = *colour_;
   cells.count = 0;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
@@ -102,14 +203,16 @@ bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
       cells.x[i] = static_cast<float>(x);
       cells.y[i] = static_cast<float>(y);
       cells.value[i] = value;
-      cells.given[i] = 1.0F;
+      cells.given[i] = givenAt(x, y);
+      brightness_->value[i] = static_cast<float>(kGrey[0] * (cell[0] + cell[1] + cell[2]));
     }
   real_count_ = cells.count;
-  is_hidden_.fill(0);
+  is_marked_.fill(0);
   for (; cells.count % kDiscLanes != 0; ++cells.count) {
     cells.x[cells.count] = cells.y[cells.count] = cells.value[cells.count] = 0.0F;
-    cells.given[cells.count] = 0.0F;
+    cells.given[cells.count] = brightness_->value[cells.count] = 0.0F;
   }
+  brightness_weight_ = 0.0;
   return true;
 }
 
@@ -128,7 +231,7 @@ Eigen::Vector3d DiscFit::colourAxis(const CellGrid& grid, const Region& region) 
     }
   const Eigen::Vector3d mean = sum / count, chroma = mean - Eigen::Vector3d::Constant(mean.sum() / 3.0);
   if (chroma.squaredNorm() >= kLeastChroma * kLeastChroma) return chroma / std::sqrt(chroma.squaredNorm());
-  return Eigen::Vector3d::Constant(1.0 / std::sqrt(3.0));
+  return kGrey;
 }
 
 double DiscFit::valueAt(double x, double y) const {
@@ -139,8 +242,8 @@ double DiscFit::valueAt(double x, double y) const {
   return (1.0 - b) * ((1.0 - a) * v[0] + a * v[1]) + b * ((1.0 - a) * v[width_] + a * v[width_ + 1]);
 }
 
-void DiscFit::start(const Circle& circle) {
-  const DiscCells& cells = *cells_;
+void DiscFit::start(const OutlineCircle& circle) {
+  const DiscCells& cells = *colour_;
   double inside = 0.0, outside = 0.0;
   int inside_count = 0, outside_count = 0;
   for (std::size_t i = 0; i < cells.count; ++i) {
@@ -157,65 +260,166 @@ void DiscFit::start(const Circle& circle) {
   p_[kDiscAround] = static_cast<float>(outside / std::max(1, outside_count));
 }
 
-float DiscFit::residualScale() {
-  const DiscCells& cells = *cells_;
+float DiscFit::residualScale(const DiscCells& cells) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < cells.count; ++i)
     if (cells.given[i] != 0.0F) sorted_[count++] = std::abs(cells.residual[i]);
-  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kLeastScale, 1.4826F * *middle);
+  return std::max(kLeastScale, 1.4826F * median(std::span(sorted_.data(), count)));
 }
 
 bool DiscFit::fitsEverywhere() {
-  DiscSums sums;
-  evaluateDisc(p_, true, *cells_);
-  weighDisc(0.0F, *cells_);
-  sumDisc(*cells_, sums);
-  const double scale = residualScale();
-  return sums.squares < kLongTail * scale * scale * sums.weight;
+  const System system = linearise();
+  // Where the whole ball fits badly, the scatter of all cells would excuse it; around it there is noise
+  // alone.
+  const double scale = noiseAround();
+  return system.squares < kLongTail * scale * scale * system.count;
+}
+
+float DiscFit::noiseAround() {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < real_count_; ++i)
+    if (colour_->given[i] != 0.0F && colour_->cover[i] == 0.0F)
+      sorted_[count++] = std::abs(colour_->residual[i]);
+  return count > 0 ? std::max(kLeastScale, 1.4826F * median(std::span(sorted_.data(), count))) : kLeastScale;
+}
+
+std::size_t DiscFit::placeOf(std::size_t cell) const {
+  return static_cast<std::size_t>(colour_->y[cell]) * static_cast<std::size_t>(width_) +
+         static_cast<std::size_t>(colour_->x[cell]);
 }
 
 void DiscFit::leaveOutHidden() {
-  DiscCells& cells = *cells_;
-  evaluateDisc(p_, true, cells);
-  is_hidden_.fill(0);
+  DiscCells& cells = *colour_;
+  evaluateDisc(p_, hasShadow(), cells);
+  is_marked_.fill(0);
   const float around = p_[kDiscAround];
-  const auto cellAt = [&](std::size_t i) {
-    return static_cast<std::ptrdiff_t>(cells.y[i]) * width_ + static_cast<std::ptrdiff_t>(cells.x[i]);
-  };
   for (std::size_t i = 0; i < real_count_; ++i) {
     const float expected = cells.value[i] - cells.residual[i] - around;
-    if (cells.cover[i] > 0.5F && cells.value[i] - around < 0.5F * expected)
-      is_hidden_[static_cast<std::size_t>(cellAt(i))] = 1;
+    cells.given[i] = givenAt(cells.x[i], cells.y[i]);
+    if (cells.cover[i] > 0.5F && cells.value[i] - around < 0.5F * expected) is_marked_[placeOf(i)] = 1;
   }
+  leaveOutMarked(cells);
+}
+
+void DiscFit::leaveOutMarked(DiscCells& cells) {
   for (std::size_t i = 0; i < real_count_; ++i) {
-    const auto x = static_cast<int>(cells.x[i]), y = static_cast<int>(cells.y[i]);
-    cells.given[i] = 1.0F;
+    const auto x = static_cast<int>(colour_->x[i]), y = static_cast<int>(colour_->y[i]);
     // The neighbours of a hidden cell are partly hidden.
     for (int ny = std::max(0, y - 1); ny <= std::min(height_ - 1, y + 1); ++ny)
       for (int nx = std::max(0, x - 1); nx <= std::min(width_ - 1, x + 1); ++nx)
-        if (is_hidden_[static_cast<std::size_t>(ny * width_ + nx)] != 0) cells.given[i] = 0.0F;
+        if (is_marked_[static_cast<std::size_t>(ny * width_ + nx)] != 0) cells.given[i] = 0.0F;
   }
 }
 
-bool DiscFit::descend(int steps) {
+bool DiscFit::startBrightness() {
+  DiscCells &colour = *colour_, &brightness = *brightness_;
+  brightness.count = colour.count;
+  std::copy_n(colour.x.begin(), colour.count, brightness.x.begin());
+  std::copy_n(colour.y.begin(), colour.count, brightness.y.begin());
+  std::copy_n(colour.given.begin(), colour.count, brightness.given.begin());
+  evaluateDisc(p_, hasShadow(), colour);
+  const float colour_scale = residualScale(colour);
+  levelBrightness();
+  evaluateDisc(brightnessParameters(), hasShadow(), brightness);
+  leaveOutUneven(kOutside * residualScale(brightness));
+  const float scale = residualScale(brightness);
+  if (scale > kUneven * colour_scale) return false;
+  brightness_weight_ =
+      static_cast<double>(colour_scale) * colour_scale / (static_cast<double>(scale) * scale);
+  double outline = 0.0, seen = 0.0;
+  for (std::size_t i = 0; i < real_count_; ++i) {
+    if (colour.given[i] == 0.0F || colour.cover[i] < 0.05F || colour.cover[i] > 0.95F) continue;
+    outline += 1.0;
+    seen += brightness.given[i];
+  }
+  return seen > kSeenOutline * outline;
+}
+
+void DiscFit::levelBrightness() {
+  const DiscCells &colour = *colour_, &brightness = *brightness_;
+  const auto medianOver = [&](auto isWanted, auto valueOf) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < real_count_; ++i)
+      if (colour.given[i] != 0.0F && isWanted(colour.cover[i])) sorted_[count++] = valueOf(i);
+    return count > 0 ? median(std::span(sorted_.data(), count)) : 0.0F;
+  };
+  brightness_around_ = medianOver([](float cover) { return cover == 0.0F; },
+                                  [&](std::size_t i) { return brightness.value[i]; });
+  brightness_over_colour_ =
+      medianOver([](float cover) { return cover == 1.0F; },
+                 [&](std::size_t i) { return brightness.value[i] / (colour.value[i] - colour.residual[i]); });
+}
+
+void DiscFit::leaveOutUneven(float limit) {
+  DiscCells& cells = *brightness_;
+  // What is hidden stays marked in the colour's cells only.
+  const auto hidden = is_marked_;
+  is_marked_.fill(0);
+  for (std::size_t i = 0; i < real_count_; ++i)
+    if (std::abs(cells.residual[i]) > limit) is_marked_[placeOf(i)] = 1;
+  leaveOutMarked(cells);
+  is_marked_ = hidden;
+}
+
+DiscFit::Parameters DiscFit::brightnessParameters() const {
+  Parameters p = p_;
+  for (const DiscParameter k : {kDiscAmbient, kDiscLightX, kDiscLightY, kDiscLightZ})
+    p[k] *= brightness_over_colour_;
+  p[kDiscAround] = brightness_around_;
+  return p;
+}
+
+bool DiscFit::hasShadow() const {
+  const float x = p_[kDiscLightX], y = p_[kDiscLightY], z = p_[kDiscLightZ], flat = kFlat * p_[kDiscAmbient];
+  return x * x + y * y + z * z > flat * flat;
+}
+
+DiscFit::System DiscFit::linearise() {
+  System system;
   DiscSums sums;
-  Normal normal;
-  Vector gradient;
-  weighDisc(0.0F, *cells_);
+  evaluateDisc(p_, hasShadow(), *colour_);
+  sumDisc(*colour_, sums);
+  system.normal.topLeftCorner<kDiscParameters, kDiscParameters>() = normalOf(sums);
+  system.gradient.head<kDiscParameters>() = Eigen::Map<const ModelVector>(sums.gradient.data());
+  system.count = sums.count;
+  system.squares = sums.squares;
+  if (brightness_weight_ > 0.0) {
+    evaluateDisc(brightnessParameters(), hasShadow(), *brightness_);
+    sumDisc(*brightness_, sums);
+    Eigen::Matrix<double, kDiscParameters, kUnknowns> chain =
+        Eigen::Matrix<double, kDiscParameters, kUnknowns>::Zero();
+    for (const DiscParameter k : {kDiscX, kDiscY, kDiscRadius}) chain(k, k) = 1.0;
+    for (const DiscParameter k : {kDiscAmbient, kDiscLightX, kDiscLightY, kDiscLightZ}) {
+      chain(k, k) = brightness_over_colour_;
+      chain(k, kRatio) = p_[k];
+    }
+    chain(kDiscAround, kSecondAround) = 1.0;
+    system.normal += brightness_weight_ * (chain.transpose() * normalOf(sums) * chain);
+    system.gradient +=
+        brightness_weight_ * (chain.transpose() * Eigen::Map<const ModelVector>(sums.gradient.data()));
+    system.count += sums.count;
+    system.squares += brightness_weight_ * sums.squares;
+  }
+  system.normal.diagonal().array() += 1e-9;
+  // Under flat light its direction shows nowhere.
+  const double ambient = p_[kDiscAmbient], prior = 4.0 / (1.0 + ambient * ambient);
+  system.normal(kDiscLightZ, kDiscLightZ) += prior;
+  system.gradient[kDiscLightZ] -= prior * p_[kDiscLightZ];
+  return system;
+}
+
+bool DiscFit::descend(int steps) {
   for (int step = 0; step < steps; ++step) {
-    evaluateDisc(p_, step > 0, *cells_);
-    sumDisc(*cells_, sums);
-    if (!(sums.weight > kUnknowns)) return false;
-    const double ambient = p_[kDiscAmbient];
-    assemble(sums, 4.0 / (1.0 + ambient * ambient), p_[kDiscLightZ], normal, gradient);
-    Vector change = normal.ldlt().solve(gradient);
+    const System system = linearise();
+    if (!(system.count > kUnknowns)) return false;
+    Vector change = system.normal.ldlt().solve(system.gradient);
     const double moved = std::sqrt(change.head<3>().squaredNorm()), most = 0.4 * p_[kDiscRadius];
     if (!(moved < 1e6)) return false;
     if (moved > most) change *= most / moved;
     for (int k = 0; k < kDiscParameters; ++k)
       p_[static_cast<std::size_t>(k)] += static_cast<float>(change[k]);
+    brightness_over_colour_ += static_cast<float>(change[kRatio]);
+    brightness_around_ += static_cast<float>(change[kSecondAround]);
     if (!(p_[kDiscRadius] > 0.7F)) return false;
     if (step > 1 && moved < kSettled) break;
   }
@@ -223,24 +427,17 @@ bool DiscFit::descend(int steps) {
 }
 
 std::optional<Disc> DiscFit::result() {
-  DiscCells& cells = *cells_;
-  evaluateDisc(p_, true, cells);
-  weighDisc(0.0F, cells);
-  DiscSums sums;
-  sumDisc(cells, sums);
+  const System system = linearise();
   double seen = 0.0;
   for (std::size_t i = 0; i < real_count_; ++i)
-    if (is_hidden_[static_cast<std::size_t>(cells.y[i]) * static_cast<std::size_t>(width_) +
-                   static_cast<std::size_t>(cells.x[i])] == 0)
-      seen += cells.cover[i];
-  Normal normal;
-  Vector gradient;
-  assemble(sums, 4.0 / (1.0 + p_[kDiscAmbient] * p_[kDiscAmbient]), p_[kDiscLightZ], normal, gradient);
+    if (is_marked_[placeOf(i)] == 0 && givenAt(colour_->x[i], colour_->y[i]) != 0.0F)
+      seen += colour_->cover[i];
   const double least = 0.25 * kLeastScale * kLeastScale;
-  const double variance = std::max(least, sums.squares / std::max(1.0, sums.weight - kUnknowns));
+  const double variance = std::max(least, system.squares / std::max(1.0, system.count - kUnknowns));
   const double contrast = p_[kDiscAmbient] + std::max(0.0F, p_[kDiscLightZ]) - p_[kDiscAround];
-  if (variance > kWorstMisfit * kWorstMisfit * contrast * contrast) return std::nullopt;
-  const Normal inverse = normal.ldlt().solve(Normal::Identity());
+  const double noise = noiseAround();
+  if (variance > noise * noise + kWorstMisfit * kWorstMisfit * contrast * contrast) return std::nullopt;
+  const Normal inverse = system.normal.ldlt().solve(Normal::Identity());
   Disc disc;
   disc.centre = {left_ + static_cast<double>(p_[kDiscX]), top_ + static_cast<double>(p_[kDiscY])};
   disc.covariance = variance * inverse.topLeftCorner<2, 2>();
@@ -252,7 +449,7 @@ std::optional<Disc> DiscFit::result() {
   return disc;
 }
 
-int DiscFit::traceOutline(std::span<Point> outline) const {
+int DiscFit::traceOutline(std::span<OutlinePoint> outline) const {
   constexpr double kStep = 0.5;
   const double level = 0.5 * (p_[kDiscAmbient] + p_[kDiscAround]);
   const double farthest = binary_.radius + binary_.radius + kMargin;
@@ -272,51 +469,6 @@ int DiscFit::traceOutline(std::span<Point> outline) const {
     }
   }
   return count;
-}
-
-int DiscFit::agreeing(std::span<const Point> outline, const Circle& circle) const {
-  const double least = std::max(0.0, circle.radius - kRound), most = circle.radius + kRound;
-  return static_cast<int>(std::count_if(outline.begin(), outline.end(), [&](const Point& point) {
-    const double dx = point.x - circle.centre.x, dy = point.y - circle.centre.y, d2 = dx * dx + dy * dy;
-    return d2 > least * least && d2 < most * most;
-  }));
-}
-
-std::optional<DiscFit::Circle> DiscFit::bestCircle(std::span<const Point> outline) const {
-  std::optional<Circle> best;
-  int most = 0;
-  const std::size_t n = outline.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t apart = 3; 2 * apart < n && apart <= 8; ++apart) {
-      const Point &a = outline[i], &b = outline[(i + apart) % n], &c = outline[(i + 2 * apart) % n];
-      const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-      const double cross = 2.0 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
-      if (std::abs(cross) < 0.5) continue;
-      const double ux = (cy * b2 - by * c2) / cross, uy = (bx * c2 - cx * b2) / cross;
-      const Circle circle{{a.x + ux, a.y + uy}, std::sqrt(ux * ux + uy * uy)};
-      if (circle.radius < 0.8 * binary_.radius || circle.radius > 2.0 * binary_.radius) continue;
-      const int count = agreeing(outline, circle);
-      if (count <= most) continue;
-      most = count;
-      best = circle;
-    }
-  return best ? throughAgreeing(outline, *best) : best;
-}
-
-DiscFit::Circle DiscFit::throughAgreeing(std::span<const Point> outline, const Circle& circle) const {
-  // x^2 + y^2 + a x + b y + c = 0, least squares (Kasa).
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const Point& point : outline) {
-    if (agreeing({&point, 1}, circle) == 0) continue;
-    const Eigen::Vector3d row(point.x - circle.centre.x, point.y - circle.centre.y, 1.0);
-    normal += row * row.transpose();
-    right -= row * row.head<2>().squaredNorm();
-  }
-  const Eigen::Vector3d solved = normal.ldlt().solve(right);
-  const double x = -0.5 * solved[0], y = -0.5 * solved[1], r2 = x * x + y * y - solved[2];
-  if (!(x * x + y * y < 1.0 && r2 > 0.0)) return circle;
-  return {{circle.centre.x + x, circle.centre.y + y}, std::sqrt(r2)};
 }
 
 bool DiscFit::isPlausible() const {

@@ -6,8 +6,10 @@
 #include <optional>
 #include <span>
 
+#include "engine/markers/ball_outline.h"
 #include "engine/markers/cell_grid.h"
 #include "engine/markers/disc_kernels.h"
+#include "engine/markers/overlap_split.h"
 #include "engine/markers/region_labeller.h"
 
 namespace helical {
@@ -23,56 +25,72 @@ struct Disc {
 /// Fits the picture of a shaded ball to the cells around a region: least squares over the centre, the radius,
 /// the ambient and the directed light, and the level of what is around it,
 ///   value(x, y) = around + cover(x, y) (ambient + max(0, light . normal(x, y)) - around),
-/// with the share of the cell that the disc covers and the normal of the sphere there. What is fitted is the
-/// colour's part along the ball's own, so that grey surroundings, whatever their brightness, look alike.
-/// Where the outline is not round, the circle that most of it lies on is the start, and cells that do not fit
-/// lose their weight: something hides them. The covariance is that of the fit, with the scatter of the
-/// residuals. Repeats bit for bit on any machine. Allocates in the constructor only. One thread.
+/// with the share of the cell that the disc covers and the normal of the sphere there. What is fitted first
+/// is the colour's part along the ball's own, so that grey surroundings, whatever their brightness, look
+/// alike; then, where the surroundings are even, the brightness as well, with the same light and a level of
+/// its own, each cell of both by the scatter around the fit. Where the outline is not round, the circle that
+/// most of it lies on is the start, and cells that do not fit are left out: something hides them. The
+/// covariance is that of the fit, with the scatter of the residuals. Repeats bit for bit on any machine.
+/// Allocates in the constructor only. One thread.
 class DiscFit {
  public:
   DiscFit();
 
   /// Nothing if the region is too large for the workspace, or nothing that looks like a ball.
   std::optional<Disc> fit(const CellGrid& grid, const Region& region);
+  /// The discs of two balls that touch or overlap; nothing if the region does not look like that. Each is
+  /// fitted without the cells that are the other's, too.
+  std::optional<std::array<Disc, 2>> fitTwo(const CellGrid& grid, const Region& region);
 
  private:
   static constexpr int kLargestSide = 88;
   using Parameters = std::array<float, kDiscParameters>;
-  struct Point {
-    double x;
-    double y;
-  };
-  struct Circle {
-    Point centre;
-    double radius;
-  };
+  struct System;
 
   bool readWindow(const CellGrid& grid, const Region& region);
   Eigen::Vector3d colourAxis(const CellGrid& grid, const Region& region) const;
   double valueAt(double x, double y) const;
-  void start(const Circle& circle);
+  void start(const OutlineCircle& circle);
+  Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
+  ValueWindow window(const Region& region);
+  float givenAt(double x, double y) const;
+  std::optional<Disc> fitColour();
+  std::optional<Disc> withBrightness(const Disc& by_colour);
+  bool startBrightness();
+  void levelBrightness();
+  void leaveOutUneven(float limit);
+  Parameters brightnessParameters() const;
+  bool hasShadow() const;
+  System linearise();
   bool descend(int steps);
-  float residualScale();
+  float residualScale(const DiscCells& cells);
   bool fitsEverywhere();
+  float noiseAround();
   void leaveOutHidden();
+  void leaveOutMarked(DiscCells& cells);
   std::optional<Disc> result();
-  int traceOutline(std::span<Point> outline) const;
-  int agreeing(std::span<const Point> outline, const Circle& circle) const;
-  std::optional<Circle> bestCircle(std::span<const Point> outline) const;
-  Circle throughAgreeing(std::span<const Point> outline, const Circle& circle) const;
+  int traceOutline(std::span<OutlinePoint> outline) const;
   bool isPlausible() const;
+  std::size_t placeOf(std::size_t cell) const;
 
   int left_ = 0;
   int top_ = 0;
   int width_ = 0;
   int height_ = 0;
-  Circle binary_{};  ///< of the region; like the parameters from the window's corner on
+  OutlineCircle binary_{};  ///< of the region; like the parameters from the window's corner on
+  std::optional<OutlineCircle> neighbour_;
+  bool has_colour_ = false;
   Parameters p_{};
-  std::size_t real_count_ = 0;  ///< of the cells, without what only fills up
+  float brightness_over_colour_ = 0.0F;  ///< of the ball's light
+  float brightness_around_ = 0.0F;
+  double brightness_weight_ = 0.0;  ///< of a cell's brightness, over that of its colour; 0: not fitted
+  std::size_t real_count_ = 0;      ///< of the cells, without what only fills up
   std::array<float, kLargestSide * kLargestSide> values_;
   std::array<float, kDiscCells> sorted_;
-  std::array<std::uint8_t, kLargestSide * kLargestSide> is_hidden_;
-  std::unique_ptr<DiscCells> cells_;
+  std::array<std::uint8_t, kLargestSide * kLargestSide> is_marked_;  ///< does not fit
+  std::unique_ptr<DiscCells> colour_;
+  std::unique_ptr<DiscCells> brightness_;
+  OverlapSplit split_;
 };
 
 }  // namespace helical

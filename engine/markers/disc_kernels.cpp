@@ -1,5 +1,7 @@
 #include "engine/markers/disc_kernels.h"
 
+#include <algorithm>
+
 // clang-format off: foreach_target.h includes this file once per instruction set.
 #define HWY_WANT_AVX3_DL
 #undef HWY_TARGET_INCLUDE
@@ -24,18 +26,43 @@ HWY_INLINE Floats positive(Floats x) {
   return hn::Max(x, all(0.0F));
 }
 
-/// The share of a unit cell that lies inside of a straight edge, `s` from the cell's centre to the edge along
-/// the edge's outward normal, of which p and q are the absolute components; and its derivative by s.
-HWY_INLINE Floats coverage(Floats s, Floats p, Floats q, Floats& slope) {
-  const Floats outer = all(0.5F) * (p + q), inner = all(0.5F) * hn::Abs(p - q), longer = hn::Max(p, q);
-  const Floats distance = hn::Abs(s), rest = positive(outer - distance);
-  const Floats product = hn::Max(all(2.0F) * p * q, all(1e-12F));
-  const Floats corner = rest * rest / product;
-  const auto in_middle = hn::Le(distance, inner);
-  const Floats on_slope = all(0.5F) + s / longer;
-  const Floats at_end = hn::IfThenElse(hn::Gt(s, all(0.0F)), all(1.0F) - corner, corner);
-  slope = hn::IfThenElse(in_middle, all(1.0F) / longer, all(2.0F) * rest / product);
-  return hn::IfThenElse(in_middle, on_slope, at_end);
+/// The part of a unit cell that lies inside of a straight edge.
+struct CoveredPart {
+  Floats share;   ///< of the cell
+  Floats slope;   ///< of the share, by the edge's place
+  Floats middle;  ///< of the part, from the cell's centre along the edge's outward normal
+  Floats spread;  ///< standard deviation around it
+};
+
+/// `s` from the cell's centre to the edge along its outward normal, of which p and q are the absolute
+/// components. Across the normal the cell is a trapezoid: what of it lies beyond |s| has the moments below.
+HWY_INLINE CoveredPart coveredPart(Floats s, Floats p, Floats q) {
+  const Floats longer = hn::Max(hn::Max(p, q), all(0.5F)), shorter = hn::Min(p, q);
+  const Floats outer = all(0.5F) * (p + q), inner = all(0.5F) * (longer - shorter);
+  const Floats distance = hn::Abs(s), rest = positive(outer - distance), in_slope = hn::Min(rest, shorter);
+  const Floats middle =
+      positive(inner - distance);  // of the part beyond, how far it reaches into the flat top
+  // The sloping end, from `outer` inwards; it has the area in_slope^2 / (2 shorter longer).
+  const Floats height =
+      hn::IfThenElse(hn::Lt(distance, inner), all(1.0F), in_slope / hn::Max(shorter, all(1e-6F)));
+  const Floats end = all(0.5F) * in_slope * height;
+  const Floats end_moment = end * (outer - all(2.0F / 3.0F) * in_slope);
+  const Floats end_square =
+      end * (outer * (outer - all(4.0F / 3.0F) * in_slope) + all(0.5F) * in_slope * in_slope);
+  const Floats flat_place = distance + all(0.5F) * middle;
+  const Floats beyond = (end + middle) / longer;
+  const Floats moment = (end_moment + middle * flat_place) / longer;
+  const Floats square =
+      (end_square + middle * (flat_place * flat_place + all(1.0F / 12.0F) * middle * middle)) / longer;
+  const auto is_most = hn::Gt(s, all(0.0F));
+  CoveredPart part;
+  part.share = hn::IfThenElse(is_most, all(1.0F) - beyond, beyond);
+  part.slope = height / longer;
+  const Floats share = hn::Max(part.share, all(1e-6F));
+  part.middle = all(0.0F) - moment / share;  // the whole cell's moment is 0
+  const Floats mean_square = hn::IfThenElse(is_most, all(1.0F / 12.0F) - square, square) / share;
+  part.spread = hn::Sqrt(positive(mean_square - part.middle * part.middle));
+  return part;
 }
 
 HWY_INLINE Floats heightOnSphere(Floats rho) {
@@ -47,23 +74,18 @@ void evaluateAll(const std::array<float, kDiscParameters>& p, bool with_shadow, 
   const Floats radius = all(p[kDiscRadius]), inverse_radius = all(1.0F) / radius,
                around = all(p[kDiscAround]);
   const Floats light_x = all(p[kDiscLightX]), light_y = all(p[kDiscLightY]), light_z = all(p[kDiscLightZ]);
-  const Floats zero = all(0.0F), half_cell = all(0.5F);
+  const Floats zero = all(0.0F), half = all(0.5F);
   for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
     const Floats dx = hn::Load(d, &cells.x[i]) - all(p[kDiscX]),
                  dy = hn::Load(d, &cells.y[i]) - all(p[kDiscY]);
     const Floats distance = hn::Sqrt(dx * dx + dy * dy) + all(1e-6F);
     const Floats nx = dx / distance, ny = dy / distance;
-    Floats edge;
-    const Floats cover = coverage(radius - distance, hn::Abs(nx), hn::Abs(ny), edge);
-    // Light is taken at the middle of the part of the cell that the ball covers, along the radius.
-    const Floats from = positive(distance - half_cell);
-    const Floats to = hn::Max(from, hn::Min(distance + half_cell, radius));
-    const Floats rho = half_cell * (from + to) * inverse_radius;
-    const Floats spread = all(0.28867513F) * (to - from) * inverse_radius;
-    const Floats z = half_cell * (heightOnSphere(rho - spread) + heightOnSphere(rho + spread));
-    const auto at_centre = hn::Lt(distance, half_cell);
-    const Floats u = hn::IfThenElse(at_centre, dx * inverse_radius, nx * rho);
-    const Floats v = hn::IfThenElse(at_centre, dy * inverse_radius, ny * rho);
+    const CoveredPart part = coveredPart(radius - distance, hn::Abs(nx), hn::Abs(ny));
+    const Floats cover = part.share, edge = part.slope;
+    // Light is taken at two places of the part of the cell that the ball covers, along the radius.
+    const Floats rho = (distance + part.middle) * inverse_radius, spread = part.spread * inverse_radius;
+    const Floats z = half * (heightOnSphere(rho - spread) + heightOnSphere(rho + spread));
+    const Floats u = nx * rho, v = ny * rho;
     Floats directed = light_x * u + light_y * v + light_z * z;
     const Floats lit = with_shadow ? hn::IfThenElse(hn::Gt(directed, zero), all(1.0F), zero) : all(1.0F);
     directed = directed * lit;
@@ -86,44 +108,48 @@ void evaluateAll(const std::array<float, kDiscParameters>& p, bool with_shadow, 
   }
 }
 
-void weighAll(float limit, DiscCells& cells) {
+/// Sums over the given cells of value a b for one a and each b, always over kDiscLanes partial sums.
+template <std::size_t kCount, class A, class B>
+HWY_INLINE std::array<double, kCount> sumsOver(const DiscCells& cells, A a, B b) {
   const Tag d;
-  const Floats inverse = all(limit > 0.0F ? 1.0F / limit : 0.0F);
-  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
-    const Floats z = hn::Load(d, &cells.residual[i]) * inverse, keep = positive(all(1.0F) - z * z);
-    hn::Store(keep * keep * hn::Load(d, &cells.given[i]), d, &cells.weight[i]);
+  alignas(64) std::array<std::array<float, kDiscLanes>, kCount> lanes;
+  for (std::size_t k = 0; k < kDiscLanes; k += hn::Lanes(d)) {
+    Floats sums[kCount];
+    for (std::size_t j = 0; j < kCount; ++j) sums[j] = hn::Zero(d);
+    for (std::size_t i = k; i < cells.count; i += kDiscLanes) {
+      const Floats weighted = hn::Load(d, &cells.given[i]) * a(i);
+      for (std::size_t j = 0; j < kCount; ++j) sums[j] = sums[j] + weighted * b(i, j);
+    }
+    for (std::size_t j = 0; j < kCount; ++j) hn::Store(sums[j], d, &lanes[j][k]);
   }
+  std::array<double, kCount> totals{};
+  for (std::size_t j = 0; j < kCount; ++j)
+    for (const float lane : lanes[j]) totals[j] += static_cast<double>(lane);
+  return totals;
 }
 
-/// Sum of weight a b, always over kDiscLanes partial sums.
-template <class A, class B>
-HWY_INLINE double sumOver(const DiscCells& cells, A a, B b) {
-  const Tag d;
-  alignas(64) std::array<float, kDiscLanes> lanes;
-  for (std::size_t k = 0; k < kDiscLanes; k += hn::Lanes(d)) {
-    Floats sum = hn::Zero(d);
-    for (std::size_t i = k; i < cells.count; i += kDiscLanes)
-      sum = sum + hn::Load(d, &cells.weight[i]) * a(i) * b(i);
-    hn::Store(sum, d, &lanes[k]);
+/// Row `kRow` of the normal equations, and those after it.
+template <std::size_t kRow>
+HWY_INLINE void sumRows(const DiscCells& cells, DiscSums& sums) {
+  if constexpr (kRow < kDiscParameters) {
+    const auto slope = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.slope[kRow][i]); };
+    const auto other = [&](std::size_t i, std::size_t j) HWY_ATTR {
+      return hn::Load(Tag(), j > kRow ? &cells.residual[i] : &cells.slope[j][i]);
+    };
+    const auto totals = sumsOver<kRow + 2>(cells, slope, other);
+    std::copy_n(totals.begin(), kRow + 1, sums.normal[kRow].begin());
+    sums.gradient[kRow] = totals[kRow + 1];
+    sumRows<kRow + 1>(cells, sums);
   }
-  double total = 0.0;
-  for (const float lane : lanes) total += static_cast<double>(lane);
-  return total;
 }
 
 void sumAll(const DiscCells& cells, DiscSums& sums) {
+  sumRows<0>(cells, sums);
   const auto one = [](std::size_t) HWY_ATTR { return all(1.0F); };
   const auto residual = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.residual[i]); };
-  for (std::size_t a = 0; a < kDiscParameters; ++a) {
-    const auto slope_a = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.slope[a][i]); };
-    for (std::size_t b = 0; b <= a; ++b) {
-      const auto slope_b = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.slope[b][i]); };
-      sums.normal[a][b] = sumOver(cells, slope_a, slope_b);
-    }
-    sums.gradient[a] = sumOver(cells, slope_a, residual);
-  }
-  sums.weight = sumOver(cells, one, one);
-  sums.squares = sumOver(cells, residual, residual);
+  sums.count = sumsOver<1>(cells, one, [](std::size_t, std::size_t) HWY_ATTR { return all(1.0F); })[0];
+  sums.squares =
+      sumsOver<1>(cells, residual, [&](std::size_t i, std::size_t) HWY_ATTR { return residual(i); })[0];
 }
 
 }  // namespace HWY_NAMESPACE
@@ -134,15 +160,10 @@ HWY_AFTER_NAMESPACE();
 namespace helical {
 
 HWY_EXPORT(evaluateAll);
-HWY_EXPORT(weighAll);
 HWY_EXPORT(sumAll);
 
 void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells) {
   HWY_DYNAMIC_DISPATCH(evaluateAll)(parameters, with_shadow, cells);
-}
-
-void weighDisc(float limit, DiscCells& cells) {
-  HWY_DYNAMIC_DISPATCH(weighAll)(limit, cells);
 }
 
 void sumDisc(const DiscCells& cells, DiscSums& sums) {

@@ -19,8 +19,8 @@ namespace {
 
 /// px per axis: what the pixels' noise does not explain, such as the edge's sampling.
 constexpr double kDiscSigma = 0.01;
-/// px around everything that was found, more by half its extent, which the background does not learn from: the
-/// rest of the helicopter.
+/// px around everything that was found, more by half its extent, which the background does not learn from:
+/// the rest of the helicopter.
 constexpr int kAround = 24;
 
 }  // namespace
@@ -42,7 +42,8 @@ struct Extractor::Workspace {
   CellRule ruleOf(std::size_t colour) const;
   void findMarkers(const ImageView& image, Observation& observation);
   void findRegions(const CellGrid& grid, std::span<const WordRect> windows);
-  Centroid locate(const ColouredRegion& region, const CellGrid& grid);
+  void locate(const ColouredRegion& region, const CellGrid& grid, Observation& observation);
+  static void add(const Centroid& centroid, Observation& observation);
 
   MarkerOptions options;
   std::vector<ColourRange> colours;
@@ -100,9 +101,8 @@ void Extractor::Workspace::findMarkers(const ImageView& image, Observation& obse
     findRegions(grid, {});
     since_whole = 0;
   }
-  for (const ColouredRegion& region : selection.sorted())
-    observation.centroids[static_cast<std::size_t>(observation.count++)] = locate(region, grid);
   observation.truncated = selection.truncated();
+  for (const ColouredRegion& region : selection.sorted()) locate(region, grid, observation);
 }
 
 void Extractor::Workspace::findRegions(const CellGrid& grid, std::span<const WordRect> windows) {
@@ -133,11 +133,24 @@ void Extractor::Workspace::adaptBackground(const ImageView& image) {
   background.adapt(image, options.background_rows, options.background_threshold, kept_out);
 }
 
-Centroid Extractor::Workspace::locate(const ColouredRegion& region, const CellGrid& grid) {
-  if (options.estimator == CentroidEstimator::kDisc)
+void Extractor::Workspace::locate(const ColouredRegion& region, const CellGrid& grid,
+                                  Observation& observation) {
+  if (options.estimator == CentroidEstimator::kDisc) {
+    if (const auto pair = disc_fit.fitTwo(grid, region.region)) {
+      for (const Disc& disc : *pair) add(discCentroid(region, disc, grid, kDiscSigma), observation);
+      return;
+    }
     if (const auto disc = disc_fit.fit(grid, region.region))
-      return discCentroid(region, *disc, grid, kDiscSigma);
-  return binaryCentroid(region, grid, options.centroid_sigma_px);
+      return add(discCentroid(region, *disc, grid, kDiscSigma), observation);
+  }
+  add(binaryCentroid(region, grid, options.centroid_sigma_px), observation);
+}
+
+void Extractor::Workspace::add(const Centroid& centroid, Observation& observation) {
+  if (observation.count == kMaxCentroids)
+    observation.truncated = true;
+  else
+    observation.centroids[static_cast<std::size_t>(observation.count++)] = centroid;
 }
 
 Extractor::Extractor(const MarkerOptions& options) {

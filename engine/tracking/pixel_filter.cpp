@@ -235,8 +235,9 @@ void PixelFilter::nameFeatures(const Observation& observation, Features& feature
     Feature& feature = features[m];
     feature.innovation = centroid.pixel - feature.prediction.pixel;
     feature.noise = centroid.covariance;
-    const double expected_area = kPi * feature.prediction.radius_px * feature.prediction.radius_px;
-    const double missing = std::max(0.0, 1.0 - centroid.area_px / expected_area);
+    // Of a fitted disc the radius is known although a part is hidden, and its covariance says what that costs.
+    const double share = centroid.radius_px / feature.prediction.radius_px;
+    const double missing = std::max(0.0, 1.0 - share * share);
     const double shift = kHiddenShift * missing * feature.prediction.radius_px;
     feature.noise.diagonal().array() += shift * shift;
     feature.selected = true;

@@ -18,6 +18,12 @@ constexpr int kRounds = 3;
 /// Share of the contrast that residuals may have beyond noise: a ball with a pattern or smeared by its motion
 /// is no shaded disc, and its centre of gravity is the steadier estimate.
 constexpr double kWorstMisfit = 0.12;
+/// Cells. Of a ball so large the region's centre of gravity is good, and what the model lacks (prints, hands,
+/// blur: measured on a real ball of 28 pixels) does more harm than noise: the disc must be close to the
+/// region.
+constexpr double kLarge = 12.0;
+constexpr double kLargeSeen = 0.97;
+constexpr double kLargeApart = 0.065;  ///< of the radius
 constexpr double kLongTail = 1.8;  ///< mean square over that of a normal distribution: something does not fit
 constexpr double kSettled = 3e-3;  ///< cells: a smaller step is the last
 constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle through an outline
@@ -444,6 +450,7 @@ std::optional<Disc> DiscFit::result() {
   disc.radius = p_[kDiscRadius];
   // What of the disc lies outside of the fitted cells is hidden, too.
   disc.seen_share = std::clamp(seen / (kPi * disc.radius * disc.radius), 0.0, 1.0);
+  if (isDoubtful(disc)) return std::nullopt;
   const double trace = disc.covariance.trace();
   if (!(trace > 0.0 && trace < disc.radius * disc.radius)) return std::nullopt;
   return disc;
@@ -469,6 +476,14 @@ int DiscFit::traceOutline(std::span<OutlinePoint> outline) const {
     }
   }
   return count;
+}
+
+bool DiscFit::isDoubtful(const Disc& disc) const {
+  if (binary_.radius < kLarge || neighbour_) return false;
+  const double dx = p_[kDiscX] - binary_.centre.x, dy = p_[kDiscY] - binary_.centre.y;
+  return disc.seen_share < kLargeSeen ||
+         std::abs(disc.radius - binary_.radius) > kLargeApart * binary_.radius ||
+         dx * dx + dy * dy > kLargeApart * kLargeApart * binary_.radius * binary_.radius;
 }
 
 bool DiscFit::isPlausible() const {

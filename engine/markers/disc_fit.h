@@ -71,6 +71,7 @@ class DiscFit {
   std::optional<Disc> result();
   int traceOutline(std::span<OutlinePoint> outline) const;
   bool isPlausible() const;
+  bool isDoubtful(const Disc& disc) const;
   std::size_t placeOf(std::size_t cell) const;
 
   int left_ = 0;

@@ -17,8 +17,6 @@
 namespace helical {
 namespace {
 
-/// px per axis: what the pixels' noise does not explain, such as the edge's sampling.
-constexpr double kDiscSigma = 0.01;
 /// px around everything that was found, more by half its extent, which the background does not learn from:
 /// the rest of the helicopter.
 constexpr int kAround = 24;
@@ -67,7 +65,8 @@ std::vector<std::shared_ptr<const ColourClass>> Extractor::Workspace::classesFor
   std::vector<std::shared_ptr<const ColourClass>> made;
   if (grid.layout == CellLayout::kBytes) return made;
   for (const ColourRange& colour : colours)
-    made.push_back(ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
+    made.push_back(
+        ColourClass::of(colour, grid.red_first ? ColourClass::Order::kRgb : ColourClass::Order::kBgr));
   return made;
 }
 
@@ -137,11 +136,11 @@ void Extractor::Workspace::locate(const ColouredRegion& region, const CellGrid& 
                                   Observation& observation) {
   if (options.estimator == CentroidEstimator::kDisc) {
     if (const auto pair = disc_fit.fitTwo(grid, region.region)) {
-      for (const Disc& disc : *pair) add(discCentroid(region, disc, grid, kDiscSigma), observation);
+      for (const Disc& disc : *pair) add(discCentroid(region, disc, grid), observation);
       return;
     }
     if (const auto disc = disc_fit.fit(grid, region.region))
-      return add(discCentroid(region, *disc, grid, kDiscSigma), observation);
+      return add(discCentroid(region, *disc, grid), observation);
   }
   add(binaryCentroid(region, grid, options.centroid_sigma_px), observation);
 }

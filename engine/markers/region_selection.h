@@ -40,7 +40,7 @@ class RegionSelection {
 /// The centre of gravity of a region's cells.
 Centroid binaryCentroid(const ColouredRegion& region, const CellGrid& grid, double sigma_px);
 
-/// The centre of the disc that was fitted to a region; `sigma_px` is what the fit does not know of, per axis.
-Centroid discCentroid(const ColouredRegion& region, const Disc& disc, const CellGrid& grid, double sigma_px);
+/// The centre of the disc that was fitted to a region, with the covariance that such centres have.
+Centroid discCentroid(const ColouredRegion& region, const Disc& disc, const CellGrid& grid);
 
 }  // namespace helical

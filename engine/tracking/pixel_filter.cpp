@@ -20,7 +20,8 @@ constexpr double kForeseen = 0.3;           // s, over which the motion model is
 // A partly hidden ball's centre of gravity is off by this many radii (standard deviation) per share of area
 // missing: measured on rendered images.
 constexpr double kHiddenShift = 0.48;
-constexpr double kLongestPrediction = 1.0;                        // s
+constexpr double kPlainSigma = 0.10;        // px per axis, of a whole ball's centre of gravity
+constexpr double kLongestPrediction = 1.0;  // s
 constexpr TimeNs kLongestBack = 30 * kNanosecondsPerMillisecond;  // cameras may be this far out of order
 constexpr TimeNs kRecentView = 100 * kNanosecondsPerMillisecond;
 constexpr double kGapSpeedLimit = 1.5;  // m/s, of the velocity guessed across a gap
@@ -34,6 +35,12 @@ using MeasurementMatrix =
 using MeasurementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxMarkers, 1>;
 using MeasurementJacobian = Eigen::Matrix<double, Eigen::Dynamic, 12, 0, 2 * kMaxMarkers, 12>;
 using CameraJacobian = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 2 * kMaxMarkers, 6>;
+
+/// Variance of a centroid's lasting offset over that of a region's centre of gravity: the offsets of fitted
+/// discs are as much smaller as their noise is.
+double biasShare(const Eigen::Matrix2d& noise) {
+  return std::min(1.0, 0.5 * noise.trace() / (kPlainSigma * kPlainSigma));
+}
 
 Matrix6d poseBlock(const Matrix12d& covariance) {
   Matrix6d pose;
@@ -121,7 +128,8 @@ void PixelFilter::update(const Observation& observation, std::span<const CameraE
   report(observation, cameras[index], features, track);
   view_information_[index].setZero();
   for (const Feature& feature : features)
-    if (feature.selected) view_information_[index] += feature.d_pose.transpose() * feature.d_pose;
+    if (feature.selected)
+      view_information_[index] += feature.d_pose.transpose() * feature.d_pose / biasShare(feature.noise);
   const int in_view = std::min(observation.count, markers_.count());
   if (in_view >= 2)
     agreement_ += kAgreementGain * (static_cast<double>(track.selected_count) / in_view - agreement_);
@@ -235,7 +243,8 @@ void PixelFilter::nameFeatures(const Observation& observation, Features& feature
     Feature& feature = features[m];
     feature.innovation = centroid.pixel - feature.prediction.pixel;
     feature.noise = centroid.covariance;
-    // Of a fitted disc the radius is known although a part is hidden, and its covariance says what that costs.
+    // Of a fitted disc the radius is known although a part is hidden, and its covariance says what that
+    // costs.
     const double share = centroid.radius_px / feature.prediction.radius_px;
     const double missing = std::max(0.0, 1.0 - share * share);
     const double shift = kHiddenShift * missing * feature.prediction.radius_px;

@@ -220,6 +220,7 @@ TEST(PixelFilter, PartlyHiddenBallHasLittleWeight) {
       if (o.camera != cameraId(0)) return;
       o.centroids[1].pixel += Eigen::Vector2d(0.5, 0.0);
       o.centroids[1].area_px *= area;
+      o.centroids[1].radius_px *= std::sqrt(area);
     };
     double sum = 0.0;
     Flight clean(3);

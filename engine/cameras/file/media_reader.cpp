@@ -1,6 +1,7 @@
 #include "engine/cameras/file/media_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
@@ -119,8 +120,8 @@ class VideoFile final : public MediaReader {
   explicit VideoFile(const fs::path& file) : file_(file), capture_(makeVideoCapture()) {
     if (!capture_->openFile(file.string()))
       throw Error(ErrorKind::kInput,
-                  "this is no image or video that can be read, or it is damaged or cut off at frame 0",
-                  file.string(), kDamagedCure);
+                  "this is no image or video that can be read, or it is damaged or cut off",
+                  file.string() + ", " + frameName(0), kDamagedCure);
     count_ = std::max(0, static_cast<int>(capture_->get(VideoCapture::Property::kFrameCount)));
     rate_ = capture_->get(VideoCapture::Property::kRate);
   }
@@ -159,11 +160,20 @@ class VideoFile final : public MediaReader {
   double rate_ = 0.0;
 };
 
+/// Whether it is an image, or says so by its name: one that cannot be read must not go missing unnoticed.
+bool isOrShouldBeImage(const fs::path& file) {
+  constexpr std::array kNames{".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".pgm", ".tif", ".tiff", ".webp"};
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(kNames.begin(), kNames.end(), extension) != kNames.end() || cv::haveImageReader(file.string());
+}
+
 std::vector<fs::path> imagesIn(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code))
-    if (entry.is_regular_file() && cv::haveImageReader(entry.path().string())) files.push_back(entry.path());
+    if (entry.is_regular_file() && isOrShouldBeImage(entry.path())) files.push_back(entry.path());
   if (code)
     throw Error(ErrorKind::kInput, "the folder cannot be read: " + code.message(), folder.string(),
                 "check its permissions");

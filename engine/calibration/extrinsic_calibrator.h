@@ -5,6 +5,7 @@
 
 #include "engine/base/ids.h"
 #include "engine/base/time.h"
+#include "engine/correspondence/tried_labellings.h"
 #include "engine/geometry/camera_estimate.h"
 #include "engine/geometry/rigid_transform.h"
 #include "engine/markers/observation.h"
@@ -69,6 +70,9 @@ class ExtrinsicCalibrator {
   /// The pixels of the last step, for methods that name centroids for themselves: empty while it does not
   /// know the names. Valid until the next call.
   virtual std::span<const LabelledPixel> named() const { return {}; }
+
+  /// What it weighs up, or has, for methods that name centroids for themselves.
+  virtual TriedLabellings labellings() const { return {}; }
 
   /// Whether the estimate's covariance already includes what offsets that stay for many frames do to it.
   virtual bool coversLastingOffsets() const { return false; }

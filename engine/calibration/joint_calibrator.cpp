@@ -60,6 +60,7 @@ void JointCalibrator::forget() {
   learnt_from_ = learnt_to_ = 0;
   known_.setZero();
   fitting_ = 1.0;
+  labellings_ = {};
 }
 
 bool JointCalibrator::goOnFrom(const CameraEstimate& estimate) {
@@ -106,9 +107,30 @@ void JointCalibrator::step(const CalibrationFrame& frame) {
     learn();
 }
 
+/// The newest frame has every ball's name under each hypothesis. With every round, not with every frame: it costs as
+/// much as learning from so many frames.
+void JointCalibrator::noteLabellings(const UnnamedFrame& frame) {
+  labellings_ = {};
+  labellings_.by_misfit = true;
+  for (const JointSearch::Hypothesis& each : search_.hypotheses()) {
+    if (!each.evaluated) continue;
+    if (labellings_.count == TriedLabellings::kMost) break;  // they come in the order of their cost
+    nameCentroids(camera_, markers_, each.camera_from_world, each.covariance(), frame, named_);
+    std::array<std::uint8_t, kMaxMarkers> markers{};
+    std::array<Eigen::Vector2d, kMaxMarkers> pixels;
+    const auto count = static_cast<std::size_t>(named_.count);
+    for (std::size_t i = 0; i < count; ++i) {
+      markers[i] = static_cast<std::uint8_t>(named_.pixels[i].marker.index());
+      pixels[i] = named_.pixels[i].pixel;
+    }
+    labellings_.add(fromLeftToRight({markers.data(), count}, {pixels.data(), count}, search_.misfit(each)));
+  }
+}
+
 void JointCalibrator::seek() {
-  search_.step(recent_[static_cast<std::size_t>((first_ + recent_count_ - 1) % kRecentFrames)],
-               options_.frame_units);
+  const UnnamedFrame& newest = recent_[static_cast<std::size_t>((first_ + recent_count_ - 1) % kRecentFrames)];
+  search_.step(newest, options_.frame_units);
+  if (search_.roundEnded() && newest.observation.count >= kFewestToJudge) noteLabellings(newest);
   const auto hypotheses = search_.hypotheses();
   if (hypotheses.empty()) return;
   if (search_.decided()) {

@@ -45,12 +45,14 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   bool namesCentroids() const override { return true; }
   bool knowsItsPlace() const override { return locked_; }
   std::span<const LabelledPixel> named() const override;
+  TriedLabellings labellings() const override { return labellings_; }
   bool coversLastingOffsets() const override { return true; }
 
  private:
   void forget();
   void remember(const CalibrationFrame& frame);
   void seek();
+  void noteLabellings(const UnnamedFrame& frame);
   void learn();
   bool lost(const UnnamedFrame& frame);
   void countNoise(const UnnamedFrame& frame);
@@ -72,6 +74,7 @@ class JointCalibrator final : public ExtrinsicCalibrator {
   double known_weight_ = 1.0;          ///< with which the smoother has that
   double fitting_ = 1.0;  ///< running share of the balls that were found where they should be
   StoredFrame named_;     ///< the newest that the smoother took in
+  TriedLabellings labellings_;
   RigidTransform guess_;
   CameraEstimate estimate_;
 };

@@ -233,6 +233,10 @@ JointSearch::Hypothesis JointSearch::evaluate(const RigidTransform& pose, const 
   return result;
 }
 
+double JointSearch::misfit(const Hypothesis& hypothesis) const {
+  return centroids_ > 0 ? std::sqrt(0.5 * hypothesis.rank_cost / centroids_) : 0.0;
+}
+
 void JointSearch::improve(Hypothesis& hypothesis) {
   const int iterations = hypothesis.iterations + 1;
   const double damping = hypothesis.damping;

@@ -64,6 +64,11 @@ class JointSearch {
     return {hypotheses_.data(), static_cast<std::size_t>(count_)};
   }
 
+  /// Whether the last step ended a round: the costs of the hypotheses are those of the same frames.
+  bool roundEnded() const { return !in_round_; }
+  /// Of a hypothesis [standard deviations]: about 1 where it explains the frames.
+  double misfit(const Hypothesis& hypothesis) const;
+
   /// Whether the first hypothesis is the answer.
   bool decided() const { return decided_; }
 

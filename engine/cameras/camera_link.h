@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include "engine/base/time.h"
 
@@ -17,6 +18,13 @@ enum class LinkState : std::uint8_t {
   kOpening,    ///< answers again, gets its settings
 };
 
+/// What a camera that is a device has taken for its exposure and gain.
+struct LightSetting {
+  double exposure_us = 0.0;                                  ///< 0: it does not tell
+  double gain = std::numeric_limits<double>::quiet_NaN();  ///< NaN: likewise
+  bool gain_in_db = true;                                    ///< else in the device's own steps
+};
+
 /// What the threads of one camera's device tell the others, and what they count. Any thread; each counter has one
 /// writer.
 struct CameraLink {
@@ -28,6 +36,15 @@ struct CameraLink {
   std::atomic<TimeNs> first_packet_to_frame{0};  ///< newest frame: its first packet's arrival to the frame in hand
   std::atomic<double> clock_drift{0.0};          ///< of its clock beside ours, relative
   std::atomic<double> clock_sigma_s{0.0};        ///< how well its clock is known
+  std::atomic<double> exposure_us{LightSetting{}.exposure_us};  ///< these three: its LightSetting
+  std::atomic<double> gain{LightSetting{}.gain};
+  std::atomic<bool> gain_in_db{LightSetting{}.gain_in_db};
+
+  void tell(const LightSetting& light) {
+    exposure_us.store(light.exposure_us, std::memory_order_relaxed);
+    gain_in_db.store(light.gain_in_db, std::memory_order_relaxed);
+    gain.store(light.gain, std::memory_order_relaxed);
+  }
 };
 
 }  // namespace helical

@@ -86,6 +86,21 @@ const ScoredLabelling* LabellingSearch::best(LabellingCriterion criterion) const
   return chosen;
 }
 
+TriedLabellings LabellingSearch::nearest(LabellingCriterion criterion, std::span<const Eigen::Vector2d> pixels) const {
+  const auto entry = [&](const ScoredLabelling& scored) {
+    const Labelling& labelling = scored.labelling;
+    return fromLeftToRight({labelling.marker.data(), static_cast<std::size_t>(labelling.count)}, pixels,
+                           scored.difference_geodesic);
+  };
+  TriedLabellings result;
+  const ScoredLabelling* chosen = best(criterion);
+  if (chosen == nullptr) return result;
+  result.add(entry(*chosen));
+  for (const auto& scored : labellings_)
+    if (&scored != chosen && cameToRest(scored)) result.add(entry(scored));
+  return result;
+}
+
 LabellingScorer::LabellingScorer(const CameraModel& camera, const MarkerLayout& markers,
                                  const LabellingSearchOptions& options)
     : camera_(camera), markers_(markers), options_(options) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/correspondence/nested_polygons.h"
+#include "engine/correspondence/tried_labellings.h"
 #include "engine/geometry/camera_resection.h"
 #include "engine/helicopter/marker_layout.h"
 
@@ -69,6 +70,9 @@ class LabellingSearch {
   /// Of the labellings whose resection came to rest the one that `criterion` prefers; null if there is none.
   const ScoredLabelling* best(LabellingCriterion criterion) const;
 
+  /// `best` and those that come nearest to it by De; `pixels` are the frame's. Allocates nothing.
+  TriedLabellings nearest(LabellingCriterion criterion, std::span<const Eigen::Vector2d> pixels) const;
+
  private:
   std::vector<ScoredLabelling> labellings_;
   double alike_px2_;
@@ -117,6 +121,10 @@ class LabellingWalk {
 
   /// Of a walk that is done.
   const LabellingSearch& found() const { return found_; }
+  /// `LabellingSearch::nearest` of them.
+  TriedLabellings nearest(LabellingCriterion criterion) const {
+    return found_.nearest(criterion, {frame_.pixels.data(), static_cast<std::size_t>(layout_.points)});
+  }
 
  private:
   LabellingSearchOptions options_;

@@ -45,6 +45,7 @@ void CameraCalibration::restart(const RigidTransform& guess, CameraStatus status
   tracks_.forget();
   search_.stop();
   named_ = false;
+  labellings_ = {};
   expelAs(status);
 }
 
@@ -69,6 +70,7 @@ void CameraCalibration::startSeeking(const Observation& observation, const Track
 void CameraCalibration::seekLabels() {
   search_.advance(std::max(1, kBallsPerStep / markers_.count()));
   if (search_.running()) return;
+  labellings_ = search_.nearest(LabellingCriterion::kNearestPlausible);
   const ScoredLabelling* best = search_.found().best(LabellingCriterion::kNearestPlausible);
   if (best == nullptr || best->resection.rms_px > kPlausibleRmsPx) return tracks_.forget();
   for (int c = 0; c < best->labelling.count; ++c)

@@ -44,6 +44,10 @@ class CameraCalibration {
   /// Pose, covariance and, by the admission rule, status.
   CameraEstimate estimate() const;
   const ExtrinsicCalibrator& calibrator() const { return *calibrator_; }
+  /// Those of the last search, or of the one that goes on.
+  TriedLabellings labellings() const {
+    return calibrator_->namesCentroids() ? calibrator_->labellings() : labellings_;
+  }
 
  private:
   bool isAdmitted() const { return admission_.status == CameraStatus::kCalibrated; }
@@ -65,6 +69,7 @@ class CameraCalibration {
   LabellingWalk search_;  ///< for the marker that each of them is
   Names track_of_marker_;
   bool named_ = false;
+  TriedLabellings labellings_;
   std::array<LabelledPixel, kMaxMarkers> pixels_;
   AdmissionOptions admission_options_;
   AdmissionMemory admission_;

@@ -141,6 +141,8 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
     camera.calibration_bound = control_set_.bound(id);
     camera.knocks_found = control_set_.knocksFound(id);
     camera.frozen = control_set_.frozen(id);
+    const CameraCalibration* calibration = control_set_.calibration(id);
+    camera.labellings = calibration != nullptr ? calibration->labellings() : TriedLabellings{};
   }
 }
 

@@ -37,6 +37,9 @@ void RigHardware::addLinks(EngineSnapshot& snapshot) const {
     snapshot.cameras[i].resent_packets = link.resent.load(std::memory_order_relaxed);
     snapshot.cameras[i].transfer = link.first_packet_to_frame.load(std::memory_order_relaxed);
     snapshot.cameras[i].clock_sigma_s = link.clock_sigma_s.load(std::memory_order_relaxed);
+    snapshot.cameras[i].light = {link.exposure_us.load(std::memory_order_relaxed),
+                                 link.gain.load(std::memory_order_relaxed),
+                                 link.gain_in_db.load(std::memory_order_relaxed)};
   }
 }
 

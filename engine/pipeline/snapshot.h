@@ -11,6 +11,7 @@
 #include "engine/calibration/cramer_rao.h"
 #include "engine/cameras/camera_link.h"
 #include "engine/cameras/frame.h"
+#include "engine/correspondence/tried_labellings.h"
 #include "engine/flight/flight_state.h"
 #include "engine/geometry/camera_estimate.h"
 #include "engine/helicopter/stick_demand.h"
@@ -25,6 +26,7 @@ struct CameraSnapshot {
   CameraEstimate estimate;
   const char* calibration_method = nullptr;  ///< by which the pose is learnt in flight; null if it was given
   double effective_sample_size = 0.0;        ///< of its hypotheses; 0 for methods without
+  TriedLabellings labellings;                ///< that its calibration has weighed up; none if its pose was given
   bool has_truth = false;                    ///< simulated cameras only
   RigidTransform true_camera_from_world;     ///< at `EngineSnapshot::time`
   std::optional<CalibrationBound> calibration_bound;  ///< no estimate can be better; see LiveBound
@@ -48,6 +50,7 @@ struct CameraSnapshot {
   std::uint64_t resent_packets = 0;
   TimeNs transfer = 0;         ///< first packet to the frame in hand, newest frame
   double clock_sigma_s = 0.0;  ///< how well the device's clock is known
+  LightSetting light;          ///< as the device has it
   CameraTrack track;
 };
 

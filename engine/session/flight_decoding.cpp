@@ -51,6 +51,13 @@ void skipHeader(CdrReader& in) {
   in.getText();
 }
 
+TriedLabellings getLabellings(CdrReader& in) {
+  TriedLabellings labellings = readNames(in.getText());
+  for (TriedLabelling& labelling : labellings.all) labelling.value = in.get<float>();
+  labellings.by_misfit = in.getBool();
+  return labellings;
+}
+
 Centroid getCentroid(CdrReader& in) {
   Centroid centroid;
   for (double& value : centroid.pixel) value = in.get<double>();
@@ -185,6 +192,11 @@ void decodeCameraState(std::string_view payload, CameraSnapshot& camera, Words& 
   camera.resent_packets = in.get<std::uint64_t>();
   camera.transfer = in.get<TimeNs>();
   camera.clock_sigma_s = in.get<double>();
+  if (in.atEnd()) return;  // likewise
+  camera.light.exposure_us = in.get<double>();
+  camera.light.gain = in.get<double>();
+  camera.light.gain_in_db = in.getBool();
+  camera.labellings = getLabellings(in);
 }
 
 void decodeTrackedPose(std::string_view payload, TrackedState& tracked) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <span>
 
 #include "engine/session/flight_change_text.h"
@@ -101,6 +102,15 @@ void putDevices(CdrWriter& out, const DeviceStatus& devices) {
   out.put(devices.record.disk_free_gb);
 }
 
+void putLabellings(CdrWriter& out, const TriedLabellings& labellings) {
+  LabellingNames text;
+  out.putText(writeNames(labellings, text));
+  for (int i = 0; i < TriedLabellings::kMost; ++i)
+    out.put(i < labellings.count ? labellings.all[static_cast<std::size_t>(i)].value
+                                 : std::numeric_limits<float>::quiet_NaN());
+  out.put(labellings.by_misfit);
+}
+
 }  // namespace
 
 std::string cameraFrame(const CameraConfig& camera) {
@@ -185,6 +195,10 @@ void encodeCameraState(CdrWriter& out, TimeNs time, const CameraSnapshot& camera
   out.put(camera.resent_packets);
   out.put(camera.transfer);
   out.put(camera.clock_sigma_s);
+  out.put(camera.light.exposure_us);
+  out.put(camera.light.gain);
+  out.put(camera.light.gain_in_db);
+  putLabellings(out, camera.labellings);
 }
 
 void encodeCameraInfo(CdrWriter& out, const CameraConfig& camera) {

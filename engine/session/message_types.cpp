@@ -119,7 +119,14 @@ constexpr Definition kDefinitions[] = {
      "float64 lost_share      # of its frames, by the operator\n"
      "float64 noise           # the operator's: grey levels, px without images\n"
      "uint32 backgrounds      # taken anew by the operator, so far\n"
-     "uint8 link\nuint64 returns\nuint64 resent_packets\nint64 transfer_ns\nfloat64 clock_sigma_s\n"},
+     "uint8 link\nuint64 returns\nuint64 resent_packets\nint64 transfer_ns\nfloat64 clock_sigma_s\n"
+     "float64 exposure_us     # as the device took it; 0: it does not tell\n"
+     "float64 gain            # likewise; not a number: it does not tell\n"
+     "bool gain_in_db         # else in the device's own steps\n"
+     "string labellings       # the best that its calibration has weighed up, the taken one first; of each the\n"
+     "                        # markers of the balls from left to right in the image: 2-0-1-3\n"
+     "float32[6] labelling_value  # of each De, from the first guess to its pose in m; not a number: there is none\n"
+     "bool labelling_misfit   # it is no distance but the misfit to the frames in standard deviations\n"},
     {"helical_msgs/OperatorOrder",
      "std_msgs/Header header\n"
      "uint64 order            # of what reached the flight thread\n"

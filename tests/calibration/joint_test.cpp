@@ -186,6 +186,27 @@ TEST(Joint, LearnsOnFromWhatOthersFound) {
   EXPECT_LT(together, 0.8 * alone);
 }
 
+TEST(Joint, TellsWhatItWeighsUp) {
+  const TrainingFlight flight = flyForTraining(3000, {.duration_s = 6.0, .markers = square()});
+  const auto calibrator = makeCalibrator("joint", whiteNoise(), flight.camera, flight.markers, 1);
+  calibrator->restart(flight.guess);
+  EXPECT_EQ(calibrator->labellings().count, 0);
+  int most = 0;
+  for (const auto& frame : flight.frames) {
+    calibrator->step(frame.view());
+    most = std::max(most, calibrator->labellings().count);
+  }
+  EXPECT_GE(most, 4) << "a square can be turned four ways";
+  ASSERT_TRUE(calibrator->knowsItsPlace());
+  const TriedLabellings decided = calibrator->labellings();
+  EXPECT_TRUE(decided.by_misfit);
+  ASSERT_EQ(decided.count, 1);
+  EXPECT_NEAR(decided.all[0].value, 1.0F, 0.5F);
+  EXPECT_GE(decided.all[0].count, 3);
+  calibrator->restart(flight.guess);
+  EXPECT_EQ(calibrator->labellings().count, 0);
+}
+
 TEST(Joint, SearchesAnewWhenTheCameraIsSomewhereElse) {
   const TrainingFlight before = flyForTraining(1, {.duration_s = 4.0, .markers = asymmetric()});
   const TrainingFlight after = flyForTraining(2, {.duration_s = 8.0, .markers = asymmetric()});

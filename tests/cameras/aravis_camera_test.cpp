@@ -136,6 +136,9 @@ TEST(AravisCamera, ChangesBrightnessByExposureTimeAndGain) {
   Frame frame;
   ASSERT_TRUE(client.next(frame));
   EXPECT_EQ(frame.image.row(50)[50], 200);
+  EXPECT_EQ(client.link->exposure_us.load(), 4000.0);
+  EXPECT_NEAR(client.link->gain.load(), 6.0206, 1e-3);
+  EXPECT_TRUE(client.link->gain_in_db.load());
 }
 
 TEST(AravisCamera, AppliesWhiteBalanceAndRegion) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -31,6 +32,7 @@ struct Webcam {
   std::atomic<int> frames{0};
   double highest_rate = 60.0;
   bool manual_exposure = true;
+  double gain = 0.0;
 };
 
 class FakeCapture final : public VideoCapture {
@@ -56,6 +58,7 @@ class FakeCapture final : public VideoCapture {
     return true;
   }
   double get(Property property) const override {
+    if (property == Property::kGain) return webcam_->gain;
     if (property == Property::kTimeMs) return webcam_->stamps ? 1e-6 * static_cast<double>(stamp_) : 0.0;
     const auto found = values_.find(property);
     return found == values_.end() ? 0.0 : found->second;
@@ -205,6 +208,20 @@ TEST_F(WebcamSettings, ComeInTheOrderThatDriversNeed) {
   EXPECT_EQ(nameOfFourCc(capture.get(Property::kFourCc)), "MJPG");
   EXPECT_EQ(capture.get(Property::kExposure), 50.0);  // V4L2 counts hundreds of microseconds
   EXPECT_EQ(capture.get(Property::kAutoExposure), 1.0);
+}
+
+TEST_F(WebcamSettings, AreReadBack) {
+  DeviceOptions options;
+  EXPECT_EQ(refusal(options), "");
+  EXPECT_EQ(lightOf(capture, options).exposure_us, 0.0) << "it times its exposure by itself";
+  EXPECT_TRUE(std::isnan(lightOf(capture, options).gain));
+  options.exposure_us = 5040.0;
+  webcam->gain = 24.0;
+  EXPECT_EQ(refusal(options), "");
+  const LightSetting light = lightOf(capture, options);
+  EXPECT_EQ(light.exposure_us, 5000.0) << "in steps of a hundred";
+  EXPECT_EQ(light.gain, 24.0);
+  EXPECT_FALSE(light.gain_in_db);
 }
 
 TEST_F(WebcamSettings, SayWhatTheCameraGivesInstead) {

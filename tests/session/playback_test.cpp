@@ -111,6 +111,15 @@ TEST(Playback, ShowsEveryTickAsItWas) {
     expectSame(flown.ticks[i], seen[i]);
     if (HasFailure()) FAIL() << "tick " << i;
   }
+  const TriedLabellings &tried = flown.ticks.back().cameras[2].labellings,
+                        &shown = seen.back().cameras[2].labellings;
+  ASSERT_GE(tried.count, 2);
+  ASSERT_EQ(shown.count, tried.count);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(tried.count); ++i) {
+    EXPECT_EQ(shown.all[i].value, tried.all[i].value);
+    EXPECT_EQ(shown.all[i].marker, tried.all[i].marker);
+  }
+  EXPECT_FALSE(shown.by_misfit);
   EXPECT_EQ(playback.lostTicks(), 0u);
   EXPECT_EQ(events.size(), playback.events().size());
   EXPECT_NE(std::find(events.begin(), events.end(), "Lift-off"), events.end());

@@ -85,7 +85,8 @@ std::unique_ptr<AravisSession> AravisCamera::open() {
                                                    arrived_.release();
                                                    return true;
                                                  });
-  exposure_us_ = session->exposureUs();
+  exposure_us_ = session->light().exposure_us;
+  link_->tell(session->light());
   log(LogLevel::kInfo, "aravis:" + device_ + ": " + session->description() + " streams");
   return session;
 }

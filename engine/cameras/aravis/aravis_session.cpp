@@ -84,9 +84,7 @@ void AravisSession::open(const std::string& device, const DeviceOptions& options
   applySettings(camera_, options, width, height, where_);
   PixelFormat format{};
   if (toPixelFormat(arv_camera_get_pixel_format(camera_, nullptr), format)) format_ = format;
-  exposure_us_ = arv_camera_is_exposure_time_available(camera_, nullptr) != 0
-                     ? arv_camera_get_exposure_time(camera_, nullptr)
-                     : 0.0;
+  light_ = lightOf(camera_);
   if (arv_camera_is_gv_device(camera_) != 0) {
     tick_frequency_ = arv_gv_device_get_timestamp_tick_frequency(ARV_GV_DEVICE(opened), nullptr);
     if (tick_frequency_ > 0 && !sampleClock(first_sample_)) tick_frequency_ = 0;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/cameras/camera_link.h"
 #include "engine/cameras/clock_mapping.h"
 #include "engine/cameras/device_options.h"
 #include "engine/cameras/frame.h"
@@ -60,7 +61,8 @@ class AravisSession {
   TimeNs lastFrame() const { return last_frame_.load(std::memory_order_relaxed); }
   /// As the camera says; nothing for one that nothing here reads.
   std::optional<PixelFormat> format() const { return format_; }
-  double exposureUs() const { return exposure_us_; }
+  /// As the camera took it.
+  const LightSetting& light() const { return light_; }
   std::string description() const { return description_; }
 
   /// Reads the camera's clock. False where it cannot be read. Blocks for seconds when the camera is dead.
@@ -99,7 +101,7 @@ class AravisSession {
   std::atomic<std::uint64_t> incomplete_{0};
   unsigned long control_lost_handler_ = 0;
   std::optional<PixelFormat> format_;
-  double exposure_us_ = 0.0;
+  LightSetting light_;
   std::uint64_t tick_frequency_ = 0;  ///< 0: the clock cannot be read
   ClockSample first_sample_;
   std::string description_;

@@ -214,6 +214,19 @@ void applySettings(_ArvCamera* camera, const DeviceOptions& options, int width, 
                                                                  : ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
 }
 
+LightSetting lightOf(_ArvCamera* camera) {
+  LightSetting light;
+  AravisError error;  // what it does not tell stays unknown
+  if (arv_camera_is_exposure_time_available(camera, nullptr) != 0)
+    light.exposure_us = arv_camera_get_exposure_time(camera, nullptr);
+  if (arv_camera_is_gain_available(camera, nullptr) == 0) return light;
+  const double gain = arv_camera_get_gain(camera, error.slot());
+  if (error) return light;
+  light.gain = gain;
+  light.gain_in_db = arv_device_is_feature_available(arv_camera_get_device(camera), "Gain", nullptr) != 0;
+  return light;
+}
+
 bool toPixelFormat(unsigned genicam_format, PixelFormat& format) {
   for (const NamedFormat& known : kFormats)
     if (known.genicam == genicam_format) {

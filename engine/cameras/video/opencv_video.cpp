@@ -25,6 +25,8 @@ int toOpencv(VideoCapture::Property property) {
       return cv::CAP_PROP_AUTO_EXPOSURE;
     case VideoCapture::Property::kExposure:
       return cv::CAP_PROP_EXPOSURE;
+    case VideoCapture::Property::kGain:
+      return cv::CAP_PROP_GAIN;
     case VideoCapture::Property::kTimeMs:
       return cv::CAP_PROP_POS_MSEC;
   }

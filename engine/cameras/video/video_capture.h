@@ -19,6 +19,7 @@ class VideoCapture {
     kFourCc,      ///< how frames are coded, four characters as one number
     kAutoExposure,
     kExposure,
+    kGain,
     kTimeMs,  ///< of the newest frame; a webcam's is on CLOCK_MONOTONIC
   };
 

@@ -61,6 +61,7 @@ std::unique_ptr<VideoCapture> WebcamCamera::open() const {
                 "end the program that uses it; `helical devices` tells which nodes are cameras");
   }
   applyWebcamSettings(*capture, options_, width_, height_, where);
+  link_->tell(lightOf(*capture, options_));
   return capture;
 }
 

@@ -1,5 +1,6 @@
 #include "engine/cameras/webcam/webcam_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -77,6 +78,14 @@ void applyWebcamSettings(VideoCapture& capture, const DeviceOptions& options, in
   setFormat(capture, options, width, height, where);
   setRate(capture, options.rate_hz, where);
   if (options.exposure_us) setExposure(capture, *options.exposure_us, where);
+}
+
+LightSetting lightOf(const VideoCapture& capture, const DeviceOptions& options) {
+  LightSetting light;
+  light.gain_in_db = false;
+  if (options.exposure_us) light.exposure_us = kExposureUnitUs * std::max(0.0, capture.get(Property::kExposure));
+  if (const double gain = capture.get(Property::kGain); gain > 0.0) light.gain = gain;
+  return light;
 }
 
 }  // namespace helical

@@ -8,8 +8,6 @@
 #include "app/transmitter_check.h"
 #include "engine/base/error.h"
 #include "engine/config/rig_file.h"
-#include "engine/config/rig_writer.h"
-#include "engine/config/text_file.h"
 #include "engine/config/transmitter_writer.h"
 
 namespace helical {
@@ -30,10 +28,9 @@ RigConfig usbRig(const std::string& file) {
   return rig;
 }
 
-void writeRig(const Arguments& arguments, const OutputChannels& channels, const std::string& checked) {
-  const std::string text = rigWithChannels(readTextFile(arguments.rig, "rig file"), arguments.rig, channels, checked);
+void writeRig(const Arguments& arguments, const OutputChannels& channels, bool checked) {
   const std::string& out = arguments.out.empty() ? arguments.rig : arguments.out;
-  writeTextFile(out, text);
+  writeChannels(arguments.rig, out, channels, checked);
   Conversation::say("written to " + out + "\n");
 }
 
@@ -45,7 +42,7 @@ int calibrate(const Arguments& arguments) {
     Conversation::say("given up: the rig file is as it was\n");
     return kGivenUp;
   }
-  writeRig(arguments, *channels, "");
+  writeRig(arguments, *channels, false);
   Conversation::say("it arms when somebody has seen which way the sticks go: helical transmitter test --rig " +
                     (arguments.out.empty() ? arguments.rig : arguments.out) + "\n");
   return 0;
@@ -61,7 +58,7 @@ int test(const Arguments& arguments) {
     Conversation::say("not passed: the rig does not arm\n");
     return kGivenUp;
   }
-  writeRig(arguments, rig.transmitter.channels, fingerprintText(rig.transmitter.channels));
+  writeRig(arguments, rig.transmitter.channels, true);
   return 0;
 }
 

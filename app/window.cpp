@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/text_file.h"
+#include "engine/config/transmitter_writer.h"
 #include "engine/geometry/rotation.h"
 #include "engine/pipeline/engine.h"
 #include "engine/pipeline/first_guess.h"
@@ -20,6 +21,7 @@
 #include "engine/session/recorder.h"
 #include "engine/session/session_folder.h"
 #include "ui/catalogue.h"
+#include "ui/channels_dialog.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
 
@@ -60,6 +62,53 @@ std::unique_ptr<Recorder> startRecorder(const WindowFlight& flight) {
   return std::make_unique<Recorder>(file, settings, Recorder::WhenFull::kDrop, Recorder::WhenRefused::kFlyOn);
 }
 
+/// The engine prepares its sources while Qt opens the display.
+struct StartingFlight {
+  explicit StartingFlight(const WindowFlight& flight)
+      : recorder(startRecorder(flight)), engine(std::async(std::launch::async, [&flight, this] {
+          auto started = std::make_unique<Engine>(flight.rig, flight.plan, recorder.get());
+          started->start();
+          return started;
+        })) {}
+  std::unique_ptr<Recorder> recorder;
+  std::future<std::unique_ptr<Engine>> engine;
+};
+
+/// Until the window is closed; true if it is to come back with the transmitter's channels calibrated.
+bool runFlight(StartingFlight& starting, const RigConfig& rig, const WindowOptions& options,
+               const std::vector<std::filesystem::path>& cut_off) {
+  MainWindow window(rig, options);
+  bool calibrate = false;
+  QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);
+  QObject::connect(&window, &MainWindow::channelsRequested, [&] {
+    calibrate = true;
+    window.close();
+    QApplication::quit();
+  });
+  if (!window.restoreLayout()) window.fitToScreen();
+  window.show();
+  const std::unique_ptr<Engine> engine = starting.engine.get();
+  window.attach(*engine);
+  MendingOffer offer(window, cut_off);
+  SessionWindows sessions(&window);
+  QApplication::exec();
+  window.detach();
+  engine->stop();
+  if (starting.recorder) starting.recorder->finish();
+  return calibrate;
+}
+
+/// Nobody flies meanwhile: the dialog owns the device.
+void calibrateChannels(RigConfig& rig) {
+  ChannelsDialog dialog(rig.transmitter, [&rig](const OutputChannels& channels, bool checked) {
+    writeChannels(rig.path, rig.path, channels, checked);
+    rig.transmitter.channels = channels;
+    rig.transmitter.directions_checked = checked ? fingerprintText(channels) : std::string();
+  });
+  dialog.show();
+  QApplication::exec();
+}
+
 }  // namespace
 
 int runWindow(int argc, char** argv, WindowFlight flight) {
@@ -70,14 +119,8 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
     giveFirstGuesses(rig, toRadians(kFirstGuessErrorDeg), kFirstGuessErrorM, rig.simulation.seed, false);
   }
   prepareDisplay();
-  const std::vector<std::filesystem::path> cut_off = cutOffSessions(sessionFolder());
-  const std::unique_ptr<Recorder> recorder = startRecorder(flight);
-  // The engine prepares its sources while Qt opens the display.
-  auto starting = std::async(std::launch::async, [&flight, &recorder] {
-    auto engine = std::make_unique<Engine>(flight.rig, flight.plan, recorder.get());
-    engine->start();
-    return engine;
-  });
+  std::vector<std::filesystem::path> cut_off = cutOffSessions(sessionFolder());
+  auto starting = std::make_unique<StartingFlight>(flight);
   QApplication application(argc, argv);
   Catalogue catalogue;
   dress(application, catalogue);
@@ -85,19 +128,13 @@ int runWindow(int argc, char** argv, WindowFlight flight) {
   options.auto_take_off = flight.demonstration;
   options.session_folder = QString::fromStdString(sessionFolder().string());
   options.layout_file = QStandardPaths::writableLocation(QStandardPaths::AppConfigLocation) + "/layout.ini";
-  MainWindow window(rig, options);
-  QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);
-  if (!window.restoreLayout()) window.fitToScreen();
-  window.show();
-  const std::unique_ptr<Engine> engine = starting.get();
-  window.attach(*engine);
-  MendingOffer offer(window, cut_off);
-  SessionWindows sessions(&window);
-  const int exit_code = QApplication::exec();
-  window.detach();
-  engine->stop();
-  if (recorder) recorder->finish();
-  return exit_code;
+  while (runFlight(*starting, rig, options, cut_off)) {
+    starting.reset();
+    calibrateChannels(rig);
+    cut_off.clear();
+    starting = std::make_unique<StartingFlight>(flight);
+  }
+  return 0;
 }
 
 int runSessionWindow(int argc, char** argv, const std::string& session) {

@@ -36,6 +36,11 @@ void MainMenus::buildFlight(QMenu& menu) {
   // Esc is named, not set as shortcut: the application-wide filter has it before any shortcut could.
   menu.addAction(tr("STOP\tEsc"), this, &MainMenus::stopRequested);
   menu.addSeparator();
+  if (isUsb(rig_.transmitter)) {
+    channels_ = menu.addAction(tr("Channels of the transmitter\u2026"), this, &MainMenus::channelsRequested);
+    channels_->setEnabled(false);
+    menu.addSeparator();
+  }
   menu.addAction(tr("Quit"), QKeySequence::Quit, &window_, &QWidget::close);
   take_off_->setEnabled(false);
   land_->setEnabled(false);
@@ -118,8 +123,9 @@ void MainMenus::setLight(bool on) {
 void MainMenus::show(const EngineSnapshot& snapshot, bool can_take_off, bool can_land) {
   take_off_->setEnabled(can_take_off);
   land_->setEnabled(can_land);
-  if (background_ != nullptr)
-    background_->setEnabled(snapshot.phase == FlightPhase::kIdle || snapshot.phase == FlightPhase::kOff);
+  const bool standing = snapshot.phase == FlightPhase::kIdle || snapshot.phase == FlightPhase::kOff;
+  if (background_ != nullptr) background_->setEnabled(standing);
+  if (channels_ != nullptr) channels_->setEnabled(standing && !snapshot.armed);
   for (std::size_t i = 0; i < hide_.size(); ++i) hide_[i]->setChecked(snapshot.cameras[i].hidden);
 }
 

@@ -46,6 +46,7 @@ class MainMenus : public QObject {
   void takeOffRequested();
   void landRequested();
   void stopRequested();
+  void channelsRequested();
   void hideRequested(helical::CameraId camera, bool hidden);
   void backgroundRequested();
   void colourRequested();
@@ -68,6 +69,7 @@ class MainMenus : public QObject {
   QMainWindow& window_;
   QAction* take_off_ = nullptr;
   QAction* land_ = nullptr;
+  QAction* channels_ = nullptr;  ///< null: the transmitter has none
   QAction* background_ = nullptr;
   QAction* light_ = nullptr;
   std::vector<QAction*> hide_;

@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QLabel>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
@@ -34,6 +35,7 @@
 #include "ui/playback_bar.h"
 #include "ui/plot_deck.h"
 #include "ui/scene_view.h"
+#include "ui/status_words.h"
 #include "ui/theme.h"
 #include "ui/top_bar.h"
 #include "ui/tuning_editor.h"
@@ -191,6 +193,8 @@ void MainWindow::buildPanels() {
   connect(calibration_, &CalibrationPanel::methodChosen, orders_, &EngineOrders::setCalibrator);
   connect(calibration_, &CalibrationPanel::restartRequested, orders_, &EngineOrders::restartCalibration);
   connect(calibration_, &CalibrationPanel::ordered, orders_, &EngineOrders::orderCalibration);
+  connect(calibration_, &CalibrationPanel::placeLoadRequested, orders_, &EngineOrders::loadPlace);
+  connect(calibration_, &CalibrationPanel::placeSaveRequested, orders_, &EngineOrders::savePlace);
   connect(calibration_, &CalibrationPanel::loadRequested, orders_, &EngineOrders::loadCalibration);
   connect(calibration_, &CalibrationPanel::saveRequested, orders_, &EngineOrders::saveCalibration);
   docks_.calibration = addPanel(new PanelTitle(tr("Calibration"), theme::kActive),
@@ -266,6 +270,7 @@ void MainWindow::buildMenus() {
   connect(menus_, &MainMenus::compareRequested, this, &MainWindow::chooseComparison);
   connect(menus_, &MainMenus::takeOffRequested, orders_, &EngineOrders::takeOff);
   connect(menus_, &MainMenus::landRequested, orders_, &EngineOrders::land);
+  connect(menus_, &MainMenus::channelsRequested, this, &MainWindow::askForChannels);
   connect(menus_, &MainMenus::stopRequested, orders_, &EngineOrders::stop);
   connect(menus_, &MainMenus::hideRequested, orders_, &EngineOrders::hideCamera);
   connect(menus_, &MainMenus::backgroundRequested, orders_, &EngineOrders::takeBackground);
@@ -283,6 +288,18 @@ void MainWindow::buildMenus() {
                tr("<b>Helical</b><br>Ground control for small helicopters that carry no sensors.<br><br>"
                   "GPL-3.0-or-later"));
   });
+}
+
+void MainWindow::askForChannels() {
+  auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Channels of the transmitter"),
+                              tr("The device belongs to the flight: this window closes, and comes back when the "
+                                 "channels are calibrated or you cancel. Go on?"),
+                              QMessageBox::Yes | QMessageBox::No, this);
+  connect(box, &QMessageBox::accepted, this, [this] {
+    const EngineSnapshot& now = view_->snapshot();
+    if (!now.armed && !inFlight(now.phase)) Q_EMIT channelsRequested();
+  });
+  openDialog(box);
 }
 
 void MainWindow::openManual() {

@@ -89,6 +89,9 @@ class MainWindow : public QMainWindow {
   void exportChosen(const QString& file);
   /// File > Compare sessions: with the one that is shown, if there is one.
   void comparisonChosen(const QStringList& files);
+  /// Flight > Channels of the transmitter, on the ground: whoever owns the engine ends this flight first, because the
+  /// device is its.
+  void channelsRequested();
   void firstImage(qint64 since_process_start_ns);
 
  public Q_SLOTS:
@@ -112,6 +115,7 @@ class MainWindow : public QMainWindow {
   void chooseSession();
   void chooseExport();
   void chooseComparison();
+  void askForChannels();
   void tick();
   void fetchTicks();
   void fetchPictures();

@@ -5,6 +5,9 @@
 
 #include "engine/base/error.h"
 #include "engine/config/rig_file.h"
+#include "engine/config/rig_writer.h"
+#include "engine/config/text_file.h"
+#include "engine/transmitter/transmitter_options.h"
 
 namespace helical {
 namespace {
@@ -70,6 +73,12 @@ std::string rigWithChannels(std::string_view toml, const std::string& name, cons
     throw Error(ErrorKind::kInput, "the transmitter's table is written in a way that cannot be changed line by line", name,
                 "write [transmitter] and [[transmitter.channel]] as tables of their own");
   return text;
+}
+
+void writeChannels(const std::filesystem::path& rig, const std::filesystem::path& out, const OutputChannels& channels,
+                   bool checked) {
+  writeTextFile(out, rigWithChannels(readTextFile(rig, "rig file"), rig.string(), channels,
+                                     checked ? fingerprintText(channels) : std::string()));
 }
 
 }  // namespace helical

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,10 @@ namespace helical {
 /// in a way that cannot be changed line by line.
 std::string rigWithChannels(std::string_view toml, const std::string& name, const OutputChannels& channels,
                             const std::string& directions_checked);
+
+/// The file `rig` with these channels, as `out`, which may be the same; `checked`: somebody has seen which way the sticks
+/// go. Throws Error(kInput) as rigWithChannels, Error(kSystem) when it cannot be written.
+void writeChannels(const std::filesystem::path& rig, const std::filesystem::path& out, const OutputChannels& channels,
+                   bool checked);
 
 }  // namespace helical

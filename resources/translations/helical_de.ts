@@ -2152,10 +2152,6 @@ m/s</translation>
         <translation>Fehler</translation>
     </message>
     <message>
-        <source>pilot</source>
-        <translation>Pilot</translation>
-    </message>
-    <message>
         <source>bench</source>
         <translation>Prüfstand</translation>
     </message>
@@ -2394,6 +2390,342 @@ m/s</translation>
     <message>
         <source>solved for together with all others</source>
         <translation>wird mit allen anderen zusammen bestimmt</translation>
+    </message>
+    <message>
+        <source>Balls, left to right</source>
+        <translation>Kugeln von links</translation>
+    </message>
+    <message>
+        <source>Labelling</source>
+        <translation>Benennung</translation>
+    </message>
+    <message>
+        <source>Load the place of %1</source>
+        <translation>Den Platz von %1 laden</translation>
+    </message>
+    <message>
+        <source>Believe that %1 stands where a saved calibration says</source>
+        <translation>Annehmen, dass %1 dort steht, wo eine gesicherte Kalibrierung es sagt</translation>
+    </message>
+    <message>
+        <source>Save the place of %1</source>
+        <translation>Den Platz von %1 sichern</translation>
+    </message>
+    <message>
+        <source>Where %1 stands, with its uncertainty, to a file</source>
+        <translation>Wo %1 steht, mit der Unsicherheit, in eine Datei</translation>
+    </message>
+    <message>
+        <source>Labellings weighed up, with their misfit in standard deviations:</source>
+        <translation>Erwogene Benennungen mit ihrer Abweichung in Standardabweichungen:</translation>
+    </message>
+    <message>
+        <source>Labellings weighed up, with their distance De from the first guess:</source>
+        <translation>Erwogene Benennungen mit ihrem Abstand De von der ersten Schätzung:</translation>
+    </message>
+    <message>
+        <source>%1   %2 m</source>
+        <translation>%1   %2 m</translation>
+    </message>
+    <message>
+        <source>GAIN %1</source>
+        <translation>VERST %1</translation>
+    </message>
+    <message>
+        <source>Load the place of one camera</source>
+        <translation>Den Platz einer Kamera laden</translation>
+    </message>
+    <message>
+        <source>Save the place of one camera</source>
+        <translation>Den Platz einer Kamera sichern</translation>
+    </message>
+    <message>
+        <source>No camera is learning its place</source>
+        <translation>Keine Kamera lernt ihren Platz</translation>
+    </message>
+    <message>
+        <source>No camera is used</source>
+        <translation>Keine Kamera wird genutzt</translation>
+    </message>
+    <message>
+        <source>%1 labelling %2</source>
+        <translation>%1 Benennung %2</translation>
+    </message>
+    <message>
+        <source>Only for particle filters</source>
+        <translation>Nur bei Partikelfiltern</translation>
+    </message>
+    <message>
+        <source>Labels</source>
+        <translation>Namen</translation>
+    </message>
+    <message>
+        <source>How well each labelling of the balls explains what a camera without a known place sees</source>
+        <translation>Wie gut jede Benennung der Kugeln erklärt, was eine Kamera ohne bekannten Platz sieht</translation>
+    </message>
+    <message>
+        <source>De per labelling</source>
+        <translation>De je Benennung</translation>
+    </message>
+    <message>
+        <source>Misfit per labelling</source>
+        <translation>Abweichung je Benennung</translation>
+    </message>
+    <message>
+        <source>standard deviations</source>
+        <translation>Standardabweichungen</translation>
+    </message>
+    <message>
+        <source>Only where labellings are chosen by their distance from the first guess (nested polygons)</source>
+        <translation>Nur wo Benennungen nach ihrem Abstand von der ersten Schätzung gewählt werden (geschachtelte Polygone)</translation>
+    </message>
+    <message>
+        <source>Only for the method "joint", which chooses them by their misfit</source>
+        <translation>Nur beim Verfahren „joint“, das sie nach ihrer Abweichung wählt</translation>
+    </message>
+    <message>
+        <source>Pilot</source>
+        <translation>Pilot</translation>
+    </message>
+    <message>
+        <source>Helical</source>
+        <translation>Helical</translation>
+    </message>
+    <message>
+        <source>Nobody</source>
+        <translation>Niemand</translation>
+    </message>
+    <message>
+        <source>Flies</source>
+        <translation>Fliegt</translation>
+    </message>
+    <message>
+        <source>Whose sticks the helicopter obeys: Helical's, or those of the pilot, who takes over by the trainer switch</source>
+        <translation>Wessen Knüppeln der Hubschrauber gehorcht: denen von Helical oder denen des Piloten, der mit dem Lehrerschalter übernimmt</translation>
+    </message>
+    <message>
+        <source>fully to the left</source>
+        <translation>ganz nach links</translation>
+    </message>
+    <message>
+        <source>fully to the right</source>
+        <translation>ganz nach rechts</translation>
+    </message>
+    <message>
+        <source>fully back (nose up)</source>
+        <translation>ganz zurück (Nase hoch)</translation>
+    </message>
+    <message>
+        <source>fully forward (nose down)</source>
+        <translation>ganz nach vorn (Nase tief)</translation>
+    </message>
+    <message>
+        <source>at rest, motors off</source>
+        <translation>in Ruhe, Motoren aus</translation>
+    </message>
+    <message>
+        <source>at full throttle</source>
+        <translation>bei vollem Gas</translation>
+    </message>
+    <message>
+        <source>roll: is the swash plate tipped to the right now?</source>
+        <translation>Rollen: ist die Taumelscheibe jetzt nach rechts gekippt?</translation>
+    </message>
+    <message>
+        <source>pitch: is the swash plate tipped forward now?</source>
+        <translation>Nicken: ist die Taumelscheibe jetzt nach vorn gekippt?</translation>
+    </message>
+    <message>
+        <source>yaw: does the transmitter show yaw to the left now?</source>
+        <translation>Gieren: zeigt der Sender jetzt Gieren nach links?</translation>
+    </message>
+    <message>
+        <source>upper rotor: does the transmitter show about a third for it, and no other?</source>
+        <translation>Oberer Rotor: zeigt der Sender für ihn etwa ein Drittel und für keinen anderen?</translation>
+    </message>
+    <message>
+        <source>lower rotor: does the transmitter show about a third for it, and no other?</source>
+        <translation>Unterer Rotor: zeigt der Sender für ihn etwa ein Drittel und für keinen anderen?</translation>
+    </message>
+    <message>
+        <source>throttle: does the transmitter show about a third now?</source>
+        <translation>Gas: zeigt der Sender jetzt etwa ein Drittel?</translation>
+    </message>
+    <message>
+        <source>Throttle</source>
+        <translation>Gas</translation>
+    </message>
+    <message>
+        <source>Output of the device</source>
+        <translation>Ausgang des Geräts</translation>
+    </message>
+    <message>
+        <source>The terminal of the device that this channel's wire is on, counted from 0</source>
+        <translation>Die Klemme des Geräts, an der die Leitung dieses Kanals liegt, von 0 an gezählt</translation>
+    </message>
+    <message>
+        <source>half</source>
+        <translation>halb</translation>
+    </message>
+    <message>
+        <source>On the output now</source>
+        <translation>Jetzt am Ausgang</translation>
+    </message>
+    <message>
+        <source> V</source>
+        <translation> V</translation>
+    </message>
+    <message>
+        <source>Volts, %1</source>
+        <translation>Volt, %1</translation>
+    </message>
+    <message>
+        <source>It is on the output while you look at it or change it</source>
+        <translation>Sie liegt am Ausgang, während Sie sie ansehen oder ändern</translation>
+    </message>
+    <message>
+        <source>Trim</source>
+        <translation>Trimmung</translation>
+    </message>
+    <message>
+        <source>Moves neutral alone</source>
+        <translation>Verschiebt nur die Neutralstellung</translation>
+    </message>
+    <message>
+        <source> V/s</source>
+        <translation> V/s</translation>
+    </message>
+    <message>
+        <source>any</source>
+        <translation>beliebig</translation>
+    </message>
+    <message>
+        <source>Fastest change</source>
+        <translation>Schnellste Änderung</translation>
+    </message>
+    <message>
+        <source>The fastest change of this channel; 0: any</source>
+        <translation>Die schnellste Änderung dieses Kanals; 0: beliebig</translation>
+    </message>
+    <message>
+        <source>Reversed</source>
+        <translation>Umgekehrt</translation>
+    </message>
+    <message>
+        <source>The other way round: exchanges the ends. A throttle is turned round in the transmitter.</source>
+        <translation>Anders herum: vertauscht die Enden. Ein Gaskanal wird im Sender umgekehrt.</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Skip</source>
+        <translation>Überspringen</translation>
+    </message>
+    <message>
+        <source>Channels of the transmitter</source>
+        <translation>Kanäle des Senders</translation>
+    </message>
+    <message>
+        <source>What is wrong</source>
+        <translation>Was nicht stimmt</translation>
+    </message>
+    <message>
+        <source>Before you begin</source>
+        <translation>Bevor Sie beginnen</translation>
+    </message>
+    <message>
+        <source>Full deflections</source>
+        <translation>Volle Ausschläge</translation>
+    </message>
+    <message>
+        <source>Which way do the sticks go?</source>
+        <translation>Wohin gehen die Knüppel?</translation>
+    </message>
+    <message>
+        <source>Done</source>
+        <translation>Fertig</translation>
+    </message>
+    <message>
+        <source>The sticks will be moved, throttle included. Take the helicopter's motor battery out, or disconnect the motors, and keep only the radio and the servos powered.</source>
+        <translation>Die Knüppel werden bewegt, auch das Gas. Nehmen Sie den Motorakku des Hubschraubers heraus oder klemmen Sie die Motoren ab; nur Funk und Servos bleiben versorgt.</translation>
+    </message>
+    <message>
+        <source>The motors cannot turn</source>
+        <translation>Die Motoren können sich nicht drehen</translation>
+    </message>
+    <message>
+        <source>One channel for throttle and one for yaw</source>
+        <translation>Ein Kanal für Gas und einer für Gieren</translation>
+    </message>
+    <message>
+        <source>One channel for each rotor</source>
+        <translation>Ein Kanal für jeden Rotor</translation>
+    </message>
+    <message>
+        <source>Full throttle</source>
+        <translation>Volles Gas</translation>
+    </message>
+    <message>
+        <source>Full yaw</source>
+        <translation>Volles Gieren</translation>
+    </message>
+    <message>
+        <source> deg/s</source>
+        <translation> Grad/s</translation>
+    </message>
+    <message>
+        <source>Full roll and pitch</source>
+        <translation>Volles Rollen und Nicken</translation>
+    </message>
+    <message>
+        <source> deg</source>
+        <translation> Grad</translation>
+    </message>
+    <message>
+        <source>on output %1 now: %2 V</source>
+        <translation>jetzt an Ausgang %1: %2 V</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Sichern</translation>
+    </message>
+    <message>
+        <source>Every stick has been seen to go the right way. Save, and the rig can arm.</source>
+        <translation>Jeder Knüppel geht nachweislich richtig herum. Sichern Sie, und das Rig lässt sich scharf schalten.</translation>
+    </message>
+    <message>
+        <source>Saved like this the rig does not arm: nobody has seen which way the sticks go.</source>
+        <translation>So gesichert lässt sich das Rig nicht scharf schalten: niemand hat gesehen, wohin die Knüppel gehen.</translation>
+    </message>
+    <message>
+        <source>Yes, it does</source>
+        <translation>Ja</translation>
+    </message>
+    <message>
+        <source>No, the other way</source>
+        <translation>Nein, andersherum</translation>
+    </message>
+    <message>
+        <source>The stick is held out of rest while you look. One that goes the other way is turned round here, and you look again. The rig does not arm before every stick has been looked at.</source>
+        <translation>Der Knüppel wird ausgelenkt gehalten, während Sie hinsehen. Einer, der andersherum geht, wird hier umgekehrt, und Sie sehen noch einmal hin. Das Rig lässt sich erst scharf schalten, wenn jeder Knüppel angesehen wurde.</translation>
+    </message>
+    <message>
+        <source>A throttle that goes the wrong way is turned round in the transmitter itself</source>
+        <translation>Ein Gas, das falsch herum geht, wird im Sender selbst umgekehrt</translation>
+    </message>
+    <message>
+        <source>Channels of the transmitter…</source>
+        <translation>Kanäle des Senders …</translation>
+    </message>
+    <message>
+        <source>The device belongs to the flight: this window closes, and comes back when the channels are calibrated or you cancel. Go on?</source>
+        <translation>Das Gerät gehört zum Flug: dieses Fenster schließt sich und kommt wieder, wenn die Kanäle kalibriert sind oder Sie abbrechen. Weiter?</translation>
     </message>
 </context>
 </TS>

@@ -17,7 +17,8 @@ SUFFIXES = {".h", ".cpp"}
 FOUNDATION = {"base", "geometry"}
 HEADER_THIRD_PARTY = re.compile(r"^Eigen/")
 
-# The engine as the window knows it: the facade and value types.
+# The engine as the window knows it: the facade and value types; and, while no engine runs, what the guided calibration
+# of a transmitter tries its channels with.
 UI_MAY_INCLUDE = re.compile(
     r"^(engine/pipeline/(calibration_order|engine|flight_view|snapshot|white_board)\.h"
     r"|engine/config/\w+\.h"
@@ -27,7 +28,8 @@ UI_MAY_INCLUDE = re.compile(
     r"|engine/markers/(marker_options|observation)\.h"
     r"|engine/experiments/flight_trace\.h"
     r"|engine/session/(export_selection|film_writer|flight_playback|session_comparison|session_summary)\.h"
-    r"|engine/tracking/track\.h)$"
+    r"|engine/tracking/track\.h"
+    r"|engine/transmitter/(channel_measurement|direction_check|transmitter_options)\.h)$"
 )
 
 # Headers of the C++ standard library have no slash and no suffix; these are the C and POSIX ones we use.

@@ -14,7 +14,8 @@ LITERALS = r'(?:%s\s*)+' % LITERAL
 CALLS = re.compile(r'\b(?:(?:tr|QT_TR_NOOP)\(\s*|(?:translate|QT_TRANSLATE_NOOP)\(\s*"[\w:]+"\s*,\s*)(%s)\s*[,)]' % LITERALS)
 # Where the engine's words for people are, and what of them is none.
 ENGINE = ["engine/pipeline/announcer.cpp", "engine/flight/autopilot.cpp", "engine/pipeline/engine.cpp",
-          "engine/flight/flight_state.cpp", "engine/pipeline/control_set.cpp"]
+          "engine/flight/flight_state.cpp", "engine/pipeline/control_set.cpp",
+          "engine/transmitter/channel_measurement.cpp", "engine/transmitter/direction_check.cpp"]
 NO_TEXT = re.compile(r'^[^a-zA-Z]*$|^%s|%s|\.h$|^engine/|^[a-z_-]+$')
 
 

@@ -51,6 +51,8 @@ CalibrationPanel::CalibrationPanel(const RigConfig& rig, const std::vector<std::
     row->setVisible(rig.cameras[i].learns());
     connect(row, &CalibrationRow::ordered, this, &CalibrationPanel::ordered);
     connect(row, &CalibrationRow::restartRequested, this, &CalibrationPanel::restartRequested);
+    connect(row, &CalibrationRow::loadRequested, this, &CalibrationPanel::placeLoadRequested);
+    connect(row, &CalibrationRow::saveRequested, this, &CalibrationPanel::placeSaveRequested);
     layout->addWidget(row);
     rows_.push_back(row);
   }

@@ -48,6 +48,8 @@ class CalibrationPanel : public QWidget {
   void ordered(helical::CameraId camera, helical::CalibrationOrderKind kind);
   void loadRequested();
   void saveRequested();
+  void placeLoadRequested(helical::CameraId camera);
+  void placeSaveRequested(helical::CameraId camera);
 
  private:
   QHBoxLayout* buildMethods(const RigConfig& rig, const std::vector<std::string>& methods);

@@ -1,8 +1,8 @@
 #include "ui/calibration_row.h"
 
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
+#include <QStringList>
 #include <QToolButton>
 #include <cmath>
 
@@ -62,7 +62,9 @@ CalibrationRow::CalibrationRow(const CameraConfig& config, int camera, QWidget* 
       position_{makeValue(theme::kText), makeValue(theme::kMuted), makeValue(theme::kMuted)},
       orientation_{makeValue(theme::kText), makeValue(theme::kMuted), makeValue(theme::kMuted)},
       effective_name_(makeLabel(tr("Effective"), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft)),
-      effective_(makeValue(theme::kText)) {
+      effective_(makeValue(theme::kText)),
+      labelling_name_(makeLabel(tr("Balls, left to right"), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft)),
+      labelling_(makeValue(theme::kText)) {
   const QString name = QString::fromStdString(config.name);
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 4, 0, 2);
@@ -91,18 +93,44 @@ CalibrationRow::CalibrationRow(const CameraConfig& config, int camera, QWidget* 
   grid->addWidget(effective_, 5, 1, 1, 3);
   effective_->setToolTip(tr("Effective sample size of the particles, of all"));
   maps_ = new HeatMaps(name, QSize(config.model.width(), config.model.height()));
-  grid->addWidget(maps_, 6, 0, 1, 5);
+  grid->addWidget(labelling_name_, 6, 0);
+  grid->addWidget(labelling_, 6, 1, 1, 4);
+  labelling_->setAccessibleName(tr("Labelling"));
+  grid->addWidget(maps_, 7, 0, 1, 5);
 }
 
 QWidget* CalibrationRow::buildButtons(const CameraConfig& config, const QString& name) {
+  makeButtons(name);
+  connectButtons();
+  rig_->setVisible(config.camera_from_world.has_value() && !config.learns());
+  auto* box = new QWidget;
+  auto* grid = new QGridLayout(box);
+  grid->setContentsMargins(0, 2, 0, 2);
+  grid->setSpacing(4);
+  int column = 0;
+  for (QToolButton* button : {accept_, freeze_, restart_}) grid->addWidget(button, 0, column++);
+  column = 0;
+  for (QToolButton* button : {load_, save_, rig_}) grid->addWidget(button, 1, column++);
+  for (int i = 0; i < 3; ++i) grid->setColumnStretch(i, 1);
+  showButtons({});
+  return box;
+}
+
+void CalibrationRow::makeButtons(const QString& name) {
   accept_ = wideButton(tr("Accept"), tr("Accept what %1 has learnt").arg(name),
                        tr("%1 helps the pose from now on, with what it knows, before the rule lets it").arg(name));
   freeze_ = wideButton(tr("Freeze"), {}, {});
   restart_ = wideButton(tr("Restart"), tr("Restart the calibration of %1").arg(name),
                         tr("Forget what %1 has learnt and begin again from its first guess").arg(name));
+  load_ = wideButton(tr("Load\u2026"), tr("Load the place of %1").arg(name),
+                     tr("Believe that %1 stands where a saved calibration says").arg(name));
+  save_ = wideButton(tr("Save\u2026"), tr("Save the place of %1").arg(name),
+                     tr("Where %1 stands, with its uncertainty, to a file").arg(name));
   rig_ = wideButton(tr("Rig file"), tr("Put %1 where the rig file says").arg(name),
                     tr("Believe that %1 stands where the rig file says").arg(name));
-  rig_->setVisible(config.camera_from_world.has_value() && !config.learns());
+}
+
+void CalibrationRow::connectButtons() {
   connect(accept_, &QToolButton::clicked, this,
           [this] { Q_EMIT ordered(cameraId(camera_), CalibrationOrderKind::kAccept); });
   connect(freeze_, &QToolButton::clicked, this, [this] {
@@ -114,13 +142,8 @@ QWidget* CalibrationRow::buildButtons(const CameraConfig& config, const QString&
   });
   connect(rig_, &QToolButton::clicked, this,
           [this] { Q_EMIT ordered(cameraId(camera_), CalibrationOrderKind::kTrustRig); });
-  auto* box = new QWidget;
-  auto* line = new QHBoxLayout(box);
-  line->setContentsMargins(0, 2, 0, 2);
-  line->setSpacing(4);
-  for (QToolButton* button : {accept_, freeze_, restart_, rig_}) line->addWidget(button);
-  showButtons({});
-  return box;
+  connect(load_, &QToolButton::clicked, this, [this] { Q_EMIT loadRequested(cameraId(camera_)); });
+  connect(save_, &QToolButton::clicked, this, [this] { Q_EMIT saveRequested(cameraId(camera_)); });
 }
 
 void CalibrationRow::addTick(const EngineSnapshot& tick) {
@@ -133,6 +156,7 @@ void CalibrationRow::show(const EngineSnapshot& snapshot) {
   state_->setText(state.frozen ? tr("%1, frozen").arg(word.text) : word.text);
   setColor(*state_, word.color);
   showNumbers(state);
+  showLabelling(state.labellings);
   showButtons(state);
   maps_->update();
 }
@@ -160,7 +184,27 @@ void CalibrationRow::showNumbers(const CameraSnapshot& state) {
                                                         : kNoValue);
 }
 
+void CalibrationRow::showLabelling(const TriedLabellings& tried) {
+  for (QLabel* label : {labelling_name_, labelling_}) label->setVisible(tried.count > 0);
+  QString taken;
+  QStringList all{tried.by_misfit ? tr("Labellings weighed up, with their misfit in standard deviations:")
+                                  : tr("Labellings weighed up, with their distance De from the first guess:")};
+  for (int i = 0; i < tried.count; ++i) {
+    const TriedLabelling& labelling = tried.all[static_cast<std::size_t>(i)];
+    QStringList balls;
+    for (int m = 0; m < labelling.count; ++m)
+      balls << QString::number(labelling.marker[static_cast<std::size_t>(m)] + 1);
+    const QString name = balls.join(QLatin1Char('-'));
+    if (i == 0) taken = name;
+    const QString value = plainNumber(double(labelling.value), 3);
+    all << (tried.by_misfit ? QStringLiteral("%1   %2").arg(name, value) : tr("%1   %2 m").arg(name, value));
+  }
+  labelling_->setText(taken);
+  labelling_->setToolTip(all.join(QLatin1Char('\n')));
+}
+
 void CalibrationRow::showButtons(const CameraSnapshot& state) {
+  save_->setEnabled(state.estimate.status == CameraStatus::kCalibrated);
   accept_->setEnabled(state.estimate.status != CameraStatus::kCalibrated);
   if (frozen_ == state.frozen && !freeze_->accessibleName().isEmpty()) return;
   frozen_ = state.frozen;
@@ -168,6 +212,10 @@ void CalibrationRow::showButtons(const CameraSnapshot& state) {
   freeze_->setAccessibleName(frozen_ ? tr("Resume learning") : tr("Freeze what is known"));
   freeze_->setToolTip(frozen_ ? tr("Learn on from what it knows")
                               : tr("Learn no more; a knock takes it out of the control set all the same"));
+}
+
+QString CalibrationRow::labelling() const {
+  return labelling_->isHidden() ? QString() : labelling_->text();
 }
 
 QString CalibrationRow::state() const {

@@ -34,13 +34,22 @@ class CalibrationRow : public QWidget {
   QToolButton* freezeButton() const { return freeze_; }  ///< resumes a frozen one
   QToolButton* restartButton() const { return restart_; }
   QToolButton* rigButton() const { return rig_; }  ///< hidden where the rig file gives no place
+  QToolButton* loadButton() const { return load_; }
+  QToolButton* saveButton() const { return save_; }
+  /// Which balls it takes for which, and how that labelling fares; empty while it does not know.
+  QString labelling() const;
 
  Q_SIGNALS:
   void ordered(helical::CameraId camera, helical::CalibrationOrderKind kind);
   void restartRequested(helical::CameraId camera);
+  void loadRequested(helical::CameraId camera);
+  void saveRequested(helical::CameraId camera);
 
  private:
   QWidget* buildButtons(const CameraConfig& config, const QString& name);
+  void makeButtons(const QString& name);
+  void connectButtons();
+  void showLabelling(const TriedLabellings& tried);
   void showNumbers(const CameraSnapshot& state);
   void showButtons(const CameraSnapshot& state);
 
@@ -52,11 +61,15 @@ class CalibrationRow : public QWidget {
   std::array<QLabel*, 3> orientation_;  ///< likewise
   QLabel* effective_name_;
   QLabel* effective_;
+  QLabel* labelling_name_;
+  QLabel* labelling_;
   HeatMaps* maps_;
   QToolButton* accept_ = nullptr;
   QToolButton* freeze_ = nullptr;
   QToolButton* restart_ = nullptr;
   QToolButton* rig_ = nullptr;
+  QToolButton* load_ = nullptr;
+  QToolButton* save_ = nullptr;
 };
 
 }  // namespace helical

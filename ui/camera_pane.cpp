@@ -21,12 +21,14 @@ namespace {
 constexpr int kRoomForBoard = 330;
 constexpr int kRoomForTools = 270;
 
-/// What the engine has set the device to; nothing of sources without such settings, or left as the camera has them.
-QString exposureText(const DeviceOptions& device) {
+/// What the device has taken; nothing of sources that do not tell.
+QString exposureText(const LightSetting& light) {
   const auto tr = [](const char* text) { return QCoreApplication::translate("CameraPane", text); };
   QStringList parts;
-  if (device.exposure_us) parts += tr("EXP %1 ms").arg(plainNumber(1e-3 * *device.exposure_us, 1));
-  if (device.gain_db) parts += tr("GAIN %1 dB").arg(plainNumber(*device.gain_db, 1));
+  if (light.exposure_us > 0.0) parts += tr("EXP %1 ms").arg(plainNumber(1e-3 * light.exposure_us, 1));
+  if (std::isfinite(light.gain))
+    parts += light.gain_in_db ? tr("GAIN %1 dB").arg(plainNumber(light.gain, 1))
+                              : tr("GAIN %1").arg(plainNumber(light.gain, 0));
   return parts.join(QStringLiteral("  "));
 }
 
@@ -57,7 +59,6 @@ CameraPane::CameraPane(CameraId camera, const RigConfig& rig, QWidget* parent)
   masks.range = rig.marker_options;
   masks.background_threshold = rig.marker_options.background_threshold;
   view_->setMasks(masks);
-  view_->setExposure(exposureText(config.device));
   view_->setAccessibleName(tr("Picture of %1").arg(name_));
 
   auto* layout = new QVBoxLayout(this);
@@ -147,6 +148,7 @@ void CameraPane::setState(const CameraSnapshot& state, const EngineSnapshot& now
   if (state.hidden != hidden_) setHidden(state.hidden);
   setBadge(state);
   tools_->show(state);
+  view_->setExposure(exposureText(state.light));
   if (state.frames == 0) {
     title_->setNote(tr("no frames"));
     view_->setCaptions({}, {});

@@ -150,6 +150,7 @@ void CameraView::resizeEvent(QResizeEvent*) {
 }
 
 void CameraView::setExposure(const QString& text) {
+  if (text == exposure_) return;
   exposure_ = text;
   update();
 }

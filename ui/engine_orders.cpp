@@ -94,20 +94,31 @@ void EngineOrders::orderCalibration(CameraId camera, CalibrationOrderKind kind) 
 
 void EngineOrders::loadCalibration() {
   askWhatToOpen(window_, tr("Load a calibration"), QDir::currentPath(), tr("Calibrations (*.toml)"),
-                [this](const QString& file) { adoptCalibration(file); });
+                [this](const QString& file) { adoptCalibration(file, {}); });
 }
 
 void EngineOrders::saveCalibration() {
   askWhereToSave(window_, tr("Save the calibration"), QStringLiteral("calibration.toml"),
-                 tr("Calibrations (*.toml)"), [this](const QString& file) { writeCalibration(file); });
+                 tr("Calibrations (*.toml)"), [this](const QString& file) { writeCalibration(file, {}); });
 }
 
-void EngineOrders::adoptCalibration(const QString& file) {
-  attempt(tr("Calibration not loaded"), [&] { engine_->adoptCalibration(file.toStdString()); });
+void EngineOrders::loadPlace(CameraId camera) {
+  askWhatToOpen(window_, tr("Load the place of one camera"), QDir::currentPath(), tr("Calibrations (*.toml)"),
+                [this, camera](const QString& file) { adoptCalibration(file, camera); });
 }
 
-void EngineOrders::writeCalibration(const QString& file) {
-  attempt(tr("Calibration not saved"), [&] { engine_->saveCalibration(file.toStdString()); });
+void EngineOrders::savePlace(CameraId camera) {
+  askWhereToSave(window_, tr("Save the place of one camera"),
+                 QStringLiteral("camera-%1.toml").arg(camera.index() + 1), tr("Calibrations (*.toml)"),
+                 [this, camera](const QString& file) { writeCalibration(file, camera); });
+}
+
+void EngineOrders::adoptCalibration(const QString& file, std::optional<CameraId> only) {
+  attempt(tr("Calibration not loaded"), [&] { engine_->adoptCalibration(file.toStdString(), only); });
+}
+
+void EngineOrders::writeCalibration(const QString& file, std::optional<CameraId> only) {
+  attempt(tr("Calibration not saved"), [&] { engine_->saveCalibration(file.toStdString(), only); });
 }
 
 void EngineOrders::change(const FlightChange& change) {

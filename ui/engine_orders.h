@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QWidget>
+#include <optional>
 
 #include "engine/pipeline/engine.h"
 
@@ -39,6 +40,9 @@ class EngineOrders : public QObject {
   /// Both ask for the file first.
   void loadCalibration();
   void saveCalibration();
+  /// The same for one camera.
+  void loadPlace(helical::CameraId camera);
+  void savePlace(helical::CameraId camera);
   void change(const helical::FlightChange& change);
 
  Q_SIGNALS:
@@ -46,8 +50,8 @@ class EngineOrders : public QObject {
   void changed();
 
  private:
-  void adoptCalibration(const QString& file);
-  void writeCalibration(const QString& file);
+  void adoptCalibration(const QString& file, std::optional<CameraId> only);
+  void writeCalibration(const QString& file, std::optional<CameraId> only);
   template <class Order>
   void attempt(const QString& what, const Order& order);
 

@@ -1,10 +1,13 @@
 #include "ui/latency_plot.h"
 
+#include <QContextMenuEvent>
 #include <QPainter>
+#include <QTextStream>
 #include <algorithm>
 #include <cmath>
 
 #include "ui/format.h"
+#include "ui/plot_saving.h"
 #include "ui/theme.h"
 
 namespace helical {
@@ -59,6 +62,30 @@ int LatencyPlot::shownBins() const {
     for (std::size_t i = 0; i < histogram.bins.size(); ++i)
       if (histogram.bins[i] > 0) last = std::max(last, i + 3);
   return static_cast<int>(std::min(last, kBins));
+}
+
+void LatencyPlot::contextMenuEvent(QContextMenuEvent* event) {
+  offerToSave(this, event->globalPos(), QStringLiteral("latency"), [this](const QString& path) { return save(path); });
+}
+
+bool LatencyPlot::save(const QString& path) {
+  if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) return saveText(path, table());
+  return savePicture(*this, path);
+}
+
+QString LatencyPlot::table() const {
+  QString text = QStringLiteral("from_ms");
+  QTextStream out(&text, QIODevice::Append);
+  for (const CameraConfig& camera : rig_.cameras)
+    out << ",\"" << QString::fromStdString(camera.name) << " [frames]\"";
+  out << '\n';
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    out << static_cast<double>(bin) * kBinMs;
+    for (const Histogram& histogram : histograms_) out << ',' << (histogram.count > 0 ? histogram.bins[bin] : 0);
+    out << '\n';
+  }
+  out.flush();
+  return text;
 }
 
 void LatencyPlot::paintEvent(QPaintEvent*) {

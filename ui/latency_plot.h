@@ -27,13 +27,17 @@ class LatencyPlot : public QWidget {
 
   /// Counts the ticks between two times [s].
   void show(double begin, double end);
+  /// By the suffix: png, pdf, or csv. False if it cannot be written.
+  bool save(const QString& path);
   const Histogram& histogram(int camera) const { return histograms_[static_cast<std::size_t>(camera)]; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
 
  private:
   int shownBins() const;
+  QString table() const;
 
   const RigConfig& rig_;
   const TickHistory& history_;

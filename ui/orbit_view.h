@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace helical {
 
@@ -9,8 +10,11 @@ enum class SceneViewpoint { kFollow, kTop, kIso };
 /// The eye of the 3D scene: it circles a focus in the world [m, rad]. A plain value; no drawing.
 class OrbitView {
  public:
-  /// `reach`: how far from the pad the cameras stand [m]; Top and Iso show all of it.
-  explicit OrbitView(double reach);
+  OrbitView();
+
+  /// What Top and Iso show all of, in a picture of this width over height. They move when it changes, unless somebody
+  /// has turned or moved them by hand.
+  void setField(const std::vector<Eigen::Vector3d>& points, double aspect);
 
   void look(SceneViewpoint viewpoint);
   SceneViewpoint viewpoint() const { return viewpoint_; }
@@ -28,7 +32,13 @@ class OrbitView {
   static constexpr double kFieldOfView = 0.61;  ///< rad, vertical
 
  private:
-  double reach_;
+  /// As near as all of the field can be seen from this side, in the middle.
+  void fit();
+  double fittingDistance() const;
+
+  std::vector<Eigen::Vector3d> field_;
+  double aspect_ = 1.5;
+  bool by_hand_ = false;
   SceneViewpoint viewpoint_ = SceneViewpoint::kFollow;
   Eigen::Vector3d focus_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();  ///< panned away from the helicopter in Follow

@@ -22,8 +22,8 @@ PlotDeck::PlotDeck(const RigConfig& rig, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(stack_);
-  for (const PlotPage& page : {flightPage(), calibrationPage(rig, history_), featurePage(rig, history_),
-                               trackingPage(rig, history_)}) {
+  for (const PlotPage& page : {flightPage(), calibrationPage(rig, history_), labellingPage(rig, history_),
+                               featurePage(rig, history_), trackingPage(rig, history_)}) {
     auto* plots = new TimePlots(rig, page, history_, axis_);
     sheets_.push_back(plots);
     addSheet(plots, page.name, page.tip);

@@ -24,7 +24,7 @@ class PlotDeck : public QWidget {
   /// `rig` must outlive this.
   explicit PlotDeck(const RigConfig& rig, QWidget* parent = nullptr);
 
-  enum Sheet { kFlight, kCalibration, kFeatures, kTracking, kLatency };
+  enum Sheet { kFlight, kCalibration, kLabels, kFeatures, kTracking, kLatency };
 
   /// Buttons of the sheets and of Live, for the panel's title.
   void addControls(PanelTitle& title);

@@ -1,6 +1,7 @@
 #include "ui/plot_page.h"
 
 #include <QCoreApplication>
+#include <limits>
 
 #include "ui/theme.h"
 
@@ -75,27 +76,71 @@ PlotLane convergence(const RigConfig& rig, const TickHistory& history, const QSt
     // The first one's names stand for all: the colour tells the camera.
     const auto name = [first = i == 0](const QString& text) { return first ? text : QString(); };
     const QColor color = theme::cameraColor(camera);
-    result.series.push_back(
-        line(name(tr("sigma")), history.column(camera, columns.sigma), color, scale, Qt::DashLine));
-    result.series.push_back(
-        line(name(tr("bound")), history.column(camera, columns.bound), theme::kMuted, scale, Qt::DotLine));
-    if (simulated(rig, camera))
-      result.series.push_back(line(name(tr("error")), history.column(camera, columns.error), color, scale));
+    const auto add = [&](const QString& what, CameraColumn column, const QColor& shade, Qt::PenStyle style) {
+      PlotSeries series = line(name(what), history.column(camera, column), shade, scale, style);
+      series.column_name = nameOf(rig, camera) + QLatin1Char(' ') + what;
+      result.series.push_back(series);
+    };
+    add(tr("sigma"), columns.sigma, color, Qt::DashLine);
+    add(tr("bound"), columns.bound, theme::kMuted, Qt::DotLine);
+    if (simulated(rig, camera)) add(tr("error"), columns.error, color, Qt::SolidLine);
   }
+  result.empty = tr("No camera is learning its place");
   return result;
+}
+
+/// Named in the heading where there are few cameras.
+PlotSeries cameraLine(const RigConfig& rig, const TickHistory& history, int camera, CameraColumn column) {
+  PlotSeries series = line(history.cameras() <= 4 ? nameOf(rig, camera) : QString(), history.column(camera, column),
+                           theme::cameraColor(camera));
+  series.column_name = nameOf(rig, camera);
+  return series;
 }
 
 PlotLane residuals(const RigConfig& rig, const TickHistory& history) {
   PlotLane result = lane(tr("Reprojection residual"), tr("px"), 0.2, 2);
   result.one_sided = true;
   for (int camera = 0; camera < history.cameras(); ++camera)
-    result.series.push_back(line(history.cameras() <= 4 ? nameOf(rig, camera) : QString(),
-                                 history.column(camera, CameraColumn::kResidual),
-                                 theme::cameraColor(camera)));
+    result.series.push_back(cameraLine(rig, history, camera, CameraColumn::kResidual));
+  result.empty = tr("No camera is used");
+  return result;
+}
+
+/// The labellings of every camera's calibration, the one that it took as a thick line.
+PlotLane labellings(const RigConfig& rig, const TickHistory& history, const QString& title, const QString& unit,
+                    bool by_misfit) {
+  PlotLane result = lane(title, unit, 1.0, 3);
+  result.logarithmic = true;
+  result.one_sided = true;
+  for (const int camera : learningCameras(rig))
+    for (int place = 0; place < TriedLabellings::kMost; ++place) {
+      const auto column = static_cast<CameraColumn>(static_cast<int>(CameraColumn::kLabelling1) + place);
+      PlotSeries series = cameraLine(rig, history, camera, column);
+      series.column_name = tr("%1 labelling %2").arg(nameOf(rig, camera)).arg(place + 1);
+      series.condition = history.column(camera, CameraColumn::kByMisfit);
+      series.condition_value = by_misfit ? 1.0 : 0.0;
+      if (place > 0) {
+        series.name.clear();
+        series.style = Qt::DotLine;
+        series.width = 1.2;
+      } else {
+        series.width = 2.2;
+      }
+      result.series.push_back(series);
+    }
   return result;
 }
 
 }  // namespace
+
+double valueOf(const PlotSeries& series, const TickHistory& history, std::int64_t row) {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  if (series.condition >= 0 && history.value(row, series.condition) != series.condition_value) return kNothing;
+  const double value = history.value(row, series.column);
+  if (series.bit < 0) return value * series.scale;
+  const bool set = (static_cast<std::uint32_t>(value) >> series.bit & 1U) != 0;
+  return set ? series.level : kNothing;
+}
 
 PlotPage flightPage() {
   PlotPage page;
@@ -145,9 +190,8 @@ PlotPage calibrationPage(const RigConfig& rig, const TickHistory& history) {
   PlotLane effective = lane(tr("Effective sample size"), {}, 100.0, 0);
   effective.one_sided = true;
   for (const int camera : learningCameras(rig))
-    effective.series.push_back(line(history.cameras() <= 4 ? nameOf(rig, camera) : QString(),
-                                    history.column(camera, CameraColumn::kEffective),
-                                    theme::cameraColor(camera)));
+    effective.series.push_back(cameraLine(rig, history, camera, CameraColumn::kEffective));
+  effective.empty = tr("Only for particle filters");
   page.lanes = {
       convergence(rig, history, tr("Camera position"), tr("mm"),
                   {CameraColumn::kPositionError, CameraColumn::kPositionSigma, CameraColumn::kPositionBound},
@@ -158,6 +202,19 @@ PlotPage calibrationPage(const RigConfig& rig, const TickHistory& history) {
           {CameraColumn::kOrientationError, CameraColumn::kOrientationSigma, CameraColumn::kOrientationBound},
           1.0),
       residuals(rig, history)};
+  return page;
+}
+
+PlotPage labellingPage(const RigConfig& rig, const TickHistory& history) {
+  PlotPage page;
+  page.name = tr("Labels");
+  page.tip = tr("How well each labelling of the balls explains what a camera without a known place sees");
+  page.empty = tr("No camera of this rig is calibrated in flight.");
+  if (learningCameras(rig).empty()) return page;
+  page.lanes = {labellings(rig, history, tr("De per labelling"), tr("m"), false),
+                labellings(rig, history, tr("Misfit per labelling"), tr("standard deviations"), true)};
+  page.lanes[0].empty = tr("Only where labellings are chosen by their distance from the first guess (nested polygons)");
+  page.lanes[1].empty = tr("Only for the method \"joint\", which chooses them by their misfit");
   return page;
 }
 

@@ -25,7 +25,6 @@ using shapes::merged;
 using shapes::Mesh;
 using shapes::rod;
 
-constexpr double kFrustumLength = 0.45;
 constexpr double kSeenSpread = 0.02, kTellingSpread = 2.0;  // m
 constexpr double kSeenAngle = toRadians(0.75), kTellingAngle = toRadians(50.0);
 

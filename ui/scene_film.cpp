@@ -9,6 +9,7 @@
 #include "engine/session/film_writer.h"
 #include "engine/session/flight_playback.h"
 #include "ui/orbit_view.h"
+#include "ui/scene_extent.h"
 #include "ui/scene_frame_builder.h"
 #include "ui/scene_thread.h"
 #include "ui/theme.h"
@@ -17,25 +18,16 @@ namespace helical {
 namespace {
 
 constexpr QSize kPicture(960, 540);
-constexpr double kUsualReach = 2.5;  // m
-
-/// How far from the pad the farthest camera of known pose stands.
-double reachOf(const RigConfig& rig) {
-  double reach = kUsualReach;
-  for (const CameraConfig& camera : rig.cameras)
-    if (camera.camera_from_world)
-      reach = std::max(reach, camera.camera_from_world->inverseTranslation().head<2>().norm());
-  return reach;
-}
 
 }  // namespace
 
 SceneFilm::SceneFilm(const ExportOrder& order)
     : file_(order.folder / "scene.mp4"),
       playback_(std::make_unique<FlightPlayback>(order.session, std::make_shared<ManualClock>())),
+      setup_(sceneSetup(playback_->rig())),
       builder_(std::make_unique<SceneFrameBuilder>(playback_->rig())),
-      orbit_(std::make_unique<OrbitView>(reachOf(playback_->rig()))),
-      renderer_(std::make_unique<SceneThread>(sceneSetup(playback_->rig()))),
+      orbit_(std::make_unique<OrbitView>()),
+      renderer_(std::make_unique<SceneThread>(setup_)),
       writer_(std::make_unique<FilmWriter>(file_)),
       begin_(std::max(playback_->begin(), order.span.from)),
       end_(std::min(playback_->end(), order.span.to)),
@@ -72,6 +64,10 @@ void SceneFilm::step() {
       builder_->setCalibration(camera.index(), playback_->calibration(camera));
   }
   SceneFrame frame = builder_->build(playback_->snapshot());
+  if (const std::uint32_t known = knownCameras(frame); known != seen_cameras_) {
+    seen_cameras_ = known;
+    orbit_->setField(sceneExtent(setup_, frame), static_cast<double>(kPicture.width()) / kPicture.height());
+  }
   orbit_->track(frame.world_from_body.translation);
   frame.eye = orbit_->eye();
   frame.focus = orbit_->focus();

@@ -43,8 +43,10 @@ class SceneFilm : public QObject {
 
   std::filesystem::path file_;
   std::unique_ptr<FlightPlayback> playback_;
+  const SceneSetup setup_;
   std::unique_ptr<SceneFrameBuilder> builder_;
   std::unique_ptr<OrbitView> orbit_;
+  std::uint32_t seen_cameras_ = 0;  ///< that the eye makes room for, one bit each
   std::unique_ptr<SceneThread> renderer_;
   std::unique_ptr<FilmWriter> writer_;
   TimeNs begin_ = 0, end_ = 0, now_ = 0;

@@ -39,6 +39,9 @@ struct SceneRay {
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };
 
+/// How far from a camera its view is drawn [m].
+inline constexpr double kFrustumLength = 0.45;
+
 struct SceneCameraPose {
   bool known = false;
   bool in_use = false;  ///< calibrated and not hidden

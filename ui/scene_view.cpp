@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/scene_extent.h"
 #include "ui/scene_thread.h"
 #include "ui/theme.h"
 
@@ -15,19 +16,10 @@ namespace {
 constexpr double kTurnPerPixel = 0.008;  // rad
 constexpr double kZoomPerStep = 0.88;
 
-/// How far from the pad the farthest camera of known pose stands.
-double reachOf(const RigConfig& rig) {
-  double reach = 0.0;
-  for (const CameraConfig& camera : rig.cameras)
-    if (camera.camera_from_world)
-      reach = std::max(reach, camera.camera_from_world->inverseTranslation().head<2>().norm());
-  return reach;
-}
-
 }  // namespace
 
 SceneView::SceneView(const RigConfig& rig, QWidget* parent)
-    : QWidget(parent), rig_(rig), builder_(rig), orbit_(reachOf(rig)) {
+    : QWidget(parent), rig_(rig), setup_(sceneSetup(rig)), builder_(rig) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMinimumSize(320, 200);
   setFocusPolicy(Qt::StrongFocus);
@@ -61,7 +53,7 @@ std::optional<QPointF> SceneView::waypointPosition(int index) const {
 void SceneView::show(const EngineSnapshot& snapshot) {
   if (!isVisible()) return;
   if (!renderer_) {
-    renderer_ = std::make_unique<SceneThread>(sceneSetup(rig_));
+    renderer_ = std::make_unique<SceneThread>(setup_);
     connect(renderer_.get(), &SceneThread::rendered, this, [this](const RenderedScene& scene) {
       shown_ = scene;
       ++rendered_;
@@ -78,7 +70,17 @@ void SceneView::show(const EngineSnapshot& snapshot) {
   renderer_->request(frame, size(), devicePixelRatioF());
 }
 
+/// A camera that is learning its place moves a little all the time: the view stays where it is.
+void SceneView::fitField(const SceneFrame& frame) {
+  const std::uint32_t known = knownCameras(frame);
+  if (known == fitted_cameras_ && size() == fitted_size_) return;
+  fitted_cameras_ = known;
+  fitted_size_ = size();
+  orbit_.setField(sceneExtent(setup_, frame), static_cast<double>(width()) / std::max(1, height()));
+}
+
 void SceneView::setEye(SceneFrame& frame) {
+  fitField(frame);
   orbit_.track(frame.world_from_body.translation);
   frame.eye = orbit_.eye();
   frame.focus = orbit_.focus();

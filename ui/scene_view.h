@@ -55,13 +55,17 @@ class SceneView : public QWidget {
 
  private:
   void setEye(SceneFrame& frame);
+  void fitField(const SceneFrame& frame);
   void dragWaypoint(const QMouseEvent& event);
   void paintLabels(QPainter& painter) const;
   void paintUnknownCameras(QPainter& painter) const;
 
   const RigConfig& rig_;
+  const SceneSetup setup_;
   SceneFrameBuilder builder_;
   OrbitView orbit_;
+  std::uint32_t fitted_cameras_ = 0;  ///< one bit each: what the field was last made of
+  QSize fitted_size_;
   std::unique_ptr<SceneThread> renderer_;
   RenderedScene shown_;
   std::vector<bool> pose_known_;  ///< per camera

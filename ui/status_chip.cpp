@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHeight = 28;
 constexpr int kNameLeft = 24;
-constexpr int kGap = 8;
+constexpr int kGap = 13;
 
 QFont nameFont() {
   return theme::capsFont(7.0);

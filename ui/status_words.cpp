@@ -108,6 +108,13 @@ StatusWord readinessWord(const EngineSnapshot& snapshot) {
   return {tr("Ready"), theme::kHealthy};
 }
 
+StatusWord pilotWord(const EngineSnapshot& snapshot) {
+  if (snapshot.devices.transmitter.pilot_flies) return {tr("Pilot"), theme::kCaution};
+  if (snapshot.safety != SafetyState::kCut && (snapshot.armed || inFlight(snapshot.phase)))
+    return {tr("Helical"), theme::kActive};
+  return {tr("Nobody"), theme::kFaint};
+}
+
 QString failsafeNames(std::uint32_t failsafes) {
   static const std::array<std::pair<Failsafe, const char*>, 15> names{{
       {Failsafe::kNoPoseCoast, QT_TRANSLATE_NOOP("Status", "coast")},

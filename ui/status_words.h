@@ -22,6 +22,9 @@ StatusWord safetyWord(SafetyState state);
 /// The one word of the top bar: what the operator must know first.
 StatusWord readinessWord(const EngineSnapshot& snapshot);
 
+/// Whose sticks the helicopter obeys: Helical's, those of the pilot's own transmitter, or nobody's.
+StatusWord pilotWord(const EngineSnapshot& snapshot);
+
 /// Names of the failsafes that have acted, comma separated; empty if none has.
 QString failsafeNames(std::uint32_t failsafes);
 

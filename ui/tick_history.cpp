@@ -112,6 +112,12 @@ void TickHistory::addCamera(const EngineSnapshot& tick, int camera) {
   frames = state.frames;
   set(camera, CameraColumn::kKnocks, state.knocks);
   set(camera, CameraColumn::kStatus, static_cast<double>(state.estimate.status));
+  set(camera, CameraColumn::kByMisfit, state.labellings.by_misfit ? 1.0 : 0.0);
+  static_assert(TriedLabellings::kMost ==
+                static_cast<int>(CameraColumn::kLabelling6) - static_cast<int>(CameraColumn::kLabelling1) + 1);
+  for (int i = 0; i < TriedLabellings::kMost; ++i)
+    set(camera, static_cast<CameraColumn>(static_cast<int>(CameraColumn::kLabelling1) + i),
+        i < state.labellings.count ? double(state.labellings.all[static_cast<std::size_t>(i)].value) : kNothing);
 }
 
 std::int64_t TickHistory::rowAt(double time) const {

@@ -47,6 +47,13 @@ enum class CameraColumn {
   kLatency,           ///< ms, of a frame that is new at this tick
   kKnocks,            ///< so far
   kStatus,            ///< a CameraStatus
+  kByMisfit,          ///< 1: what follows is no De [m] but a misfit [standard deviations]
+  kLabelling1,        ///< of the labelling that its calibration took
+  kLabelling2,        ///< of the others that it weighed up, the best first
+  kLabelling3,
+  kLabelling4,
+  kLabelling5,
+  kLabelling6,
   kCount
 };
 

@@ -5,22 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "ui/plot_page.h"
-#include "ui/time_axis.h"
+#include "ui/plot_axes.h"
+#include "ui/plot_items.h"
 
-class QCPAxisRect;
-class QCPGraph;
 class QCustomPlot;
 
 namespace helical {
-
-/// A stretch of time in which something was done to a camera or to the air.
-struct PlotSpan {
-  double begin = 0.0;  ///< s
-  double end = 0.0;    ///< the same: a moment
-  QColor color;
-  QString text;
-};
 
 /// One sheet of plots on the shared time axis. Drag scrolls, the wheel zooms, a double click follows again;
 /// the pointer's time is read out in every lane's heading; right click saves. Spans of covered cameras,
@@ -40,9 +30,11 @@ class TimePlots : public QWidget {
 
   /// For what is shown: points of one line, and the spans.
   int pointCount(int lane, int series) const;
-  const std::vector<PlotSpan>& spans() const { return spans_; }
+  const std::vector<PlotSpan>& spans() const { return readout_.spans; }
+  /// What a lane says instead of lines; empty where there are some.
+  QString note(int lane) const;
   /// The time under the pointer [s].
-  std::optional<double> hovered() const { return hovered_; }
+  std::optional<double> hovered() const { return readout_.hovered; }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -50,36 +42,18 @@ class TimePlots : public QWidget {
   void changeEvent(QEvent* event) override;
 
  private:
-  class SpanItem;
-  class HeadingItem;
-  struct Lane {
-    PlotLane description;
-    QCPAxisRect* rect = nullptr;
-    std::vector<QCPGraph*> graphs;
-  };
-
   void addLane(std::size_t index);
-  void styleValueAxis(Lane& lane);
   void takeTheme();
-  void fill(Lane& lane, std::int64_t begin, std::int64_t end, std::int64_t step);
-  void fitRange(Lane& lane);
-  void fitLogarithm(Lane& lane);
-  void findSpans(std::int64_t begin, std::int64_t end, std::int64_t step);
+  void fill(DrawnLane& lane, const PlotRows& rows);
   double timeAt(const QPointF& position) const;
-  /// The row whose values the headings show.
-  std::optional<std::int64_t> rowShown() const;
-  double valueOf(const PlotSeries& series, std::int64_t row) const;
-  bool writeCsv(const QString& path) const;
-  void askAndSave(const QString& suffix);
 
   const RigConfig& rig_;
   const PlotPage page_;
   const TickHistory& history_;
   TimeAxis& axis_;
   QCustomPlot* plot_;
-  std::vector<Lane> lanes_;
-  std::vector<PlotSpan> spans_;
-  std::optional<double> hovered_;
+  std::vector<DrawnLane> lanes_;
+  PlotReadout readout_;
   std::optional<QPointF> drag_from_;
 };
 

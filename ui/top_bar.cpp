@@ -61,14 +61,24 @@ void enable(QPushButton& button, QPushButton& harmless, bool on) {
 
 constexpr std::array kTransmitterWords{
     QT_TRANSLATE_NOOP("TopBar", "absent"), QT_TRANSLATE_NOOP("TopBar", "fault"),
-    QT_TRANSLATE_NOOP("TopBar", "pilot"),  QT_TRANSLATE_NOOP("TopBar", "bench"),
-    QT_TRANSLATE_NOOP("TopBar", "uncal."), QT_TRANSLATE_NOOP("TopBar", "ready")};
+    QT_TRANSLATE_NOOP("TopBar", "bench"), QT_TRANSLATE_NOOP("TopBar", "uncal."),
+    QT_TRANSLATE_NOOP("TopBar", "ready")};
 
 QString transmitterText(std::size_t index) {
   return QCoreApplication::translate("TopBar", kTransmitterWords.at(index));
 }
 
-/// The chip keeps room for it.
+/// Chips keep room for the longest word.
+QString longestPilotWord() {
+  EngineSnapshot pilot, engine;
+  pilot.devices.transmitter.pilot_flies = true;
+  engine.armed = true;
+  QString longest;
+  for (const EngineSnapshot& snapshot : {pilot, engine, EngineSnapshot{}})
+    if (const QString text = pilotWord(snapshot).text; text.size() > longest.size()) longest = text;
+  return longest;
+}
+
 QString longestTransmitterWord() {
   QString longest;
   for (std::size_t i = 0; i < kTransmitterWords.size(); ++i)
@@ -79,10 +89,9 @@ QString longestTransmitterWord() {
 StatusWord transmitterWord(const TransmitterStatus& status) {
   if (!status.present) return {transmitterText(0), theme::kDanger};
   if (status.fault || !status.self_test_passed) return {transmitterText(1), theme::kDanger};
-  if (status.pilot_flies) return {transmitterText(2), theme::kCaution};
-  if (status.bench) return {transmitterText(3), theme::kCaution};
-  if (!status.channels_calibrated) return {transmitterText(4), theme::kCaution};
-  return {transmitterText(5), theme::kHealthy};
+  if (status.bench) return {transmitterText(2), theme::kCaution};
+  if (!status.channels_calibrated) return {transmitterText(3), theme::kCaution};
+  return {transmitterText(4), theme::kHealthy};
 }
 
 }  // namespace
@@ -109,6 +118,9 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
   engine_->setToolTip(tr("Control ticks per second"));
   transmitter_ = new StatusChip(tr("Radio"), longestTransmitterWord());
   transmitter_->setToolTip(tr("The transmitter, from what it last said"));
+  pilot_ = new StatusChip(tr("Flies"), longestPilotWord());
+  pilot_->setToolTip(
+      tr("Whose sticks the helicopter obeys: Helical's, or those of the pilot, who takes over by the trainer switch"));
   time_ = new StatusChip(tr("Flight"), QStringLiteral("00:00.0"));
   time_->setToolTip(tr("Since the rotors started"));
   buildButtons();
@@ -127,7 +139,8 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
   layout->addSpacing(6);
   layout->addWidget(readiness_);
   for (QWidget* widget : {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_),
-                          static_cast<QWidget*>(transmitter_), static_cast<QWidget*>(time_)})
+                          static_cast<QWidget*>(transmitter_), static_cast<QWidget*>(pilot_),
+                          static_cast<QWidget*>(time_)})
     layout->addWidget(widget);
   layout->addSpacing(6);
   for (QWidget* widget : std::initializer_list<QWidget*>{arm_, take_off_, hold_, land_, stop_})
@@ -200,7 +213,13 @@ void TopBar::show(const EngineSnapshot& snapshot) {
              inFlight(snapshot.phase) ? theme::kActive : theme::kFaint);
   const StatusWord radio = transmitterWord(snapshot.devices.transmitter);
   transmitter_->set(radio.text, radio.color);
+  const StatusWord pilot = pilotWord(snapshot);
+  pilot_->set(pilot.text, pilot.color);
   enableButtons(snapshot);
+}
+
+QString TopBar::pilot() const {
+  return pilot_->value();
 }
 
 void TopBar::enableButtons(const EngineSnapshot& snapshot) {

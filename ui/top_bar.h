@@ -16,7 +16,7 @@ class PreflightPopup;
 class StatusChip;
 
 /// The bar that is always there: name, menus, readiness in one word (a click opens the pre-flight list),
-/// rates, transmitter, flight time, Arm (held down for a second), Take off, Hold, Land, STOP. Buttons only
+/// rates, transmitter, who flies, flight time, Arm (held down for a second), Take off, Hold, Land, STOP. Buttons only
 /// ask; what is shown is what the engine answers.
 class TopBar : public QWidget {
   Q_OBJECT
@@ -34,6 +34,8 @@ class TopBar : public QWidget {
   QPushButton* readinessButton() const { return readiness_; }
   PreflightPopup& preflight() const { return *preflight_; }
   QString readiness() const;
+  /// Who flies, as it is shown.
+  QString pilot() const;
 
   void show(const EngineSnapshot& snapshot);
 
@@ -58,6 +60,7 @@ class TopBar : public QWidget {
   StatusChip* engine_;
   StatusChip* time_;
   StatusChip* transmitter_;
+  StatusChip* pilot_;
   bool armed_ = false;
   bool holding_ = false;
   HoldButton* arm_;

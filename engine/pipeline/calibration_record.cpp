@@ -37,6 +37,15 @@ SavedCalibration calibrationOf(const RigConfig& rig, const EngineSnapshot& now) 
   return saved;
 }
 
+SavedCalibration onlyOf(const SavedCalibration& saved, const CameraConfig& camera) {
+  SavedCalibration one = saved;
+  std::erase_if(one.cameras, [&](const SavedCamera& each) { return each.label != camera.label; });
+  if (one.cameras.empty())
+    throw Error(ErrorKind::kInput, camera.name + " is not among the cameras whose place is known here", saved.rig,
+                "wait until it is calibrated, or choose a calibration that has camera " + camera.label);
+  return one;
+}
+
 std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig) {
   std::vector<CalibrationOrder> orders;
   for (const SavedCamera& camera : saved.cameras)

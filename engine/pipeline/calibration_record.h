@@ -12,6 +12,9 @@ namespace helical {
 /// The cameras of the control set as they stand now. Throws Error(kInput) if there is none.
 SavedCalibration calibrationOf(const RigConfig& rig, const EngineSnapshot& now);
 
+/// One camera of it alone. Throws Error(kInput) if it is not in there.
+SavedCalibration onlyOf(const SavedCalibration& saved, const CameraConfig& camera);
+
 /// To put every camera that the calibration names where it says. Throws Error(kInput) for one that the rig lacks.
 std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig);
 

@@ -559,12 +559,16 @@ bool Engine::orderCalibration(const CalibrationOrder& order) {
   return implementation_->calibration_orders.push(order);
 }
 
-void Engine::saveCalibration(const std::filesystem::path& file) const {
-  helical::saveCalibration(file, calibrationOf(implementation_->rig, snapshot()));
+void Engine::saveCalibration(const std::filesystem::path& file, std::optional<CameraId> only) const {
+  const RigConfig& rig = implementation_->rig;
+  SavedCalibration saved = calibrationOf(rig, snapshot());
+  if (only) saved = onlyOf(saved, rig.cameras[static_cast<std::size_t>(only->index())]);
+  helical::saveCalibration(file, saved);
 }
 
-void Engine::adoptCalibration(const std::filesystem::path& file) {
-  const SavedCalibration saved = loadCalibration(file);
+void Engine::adoptCalibration(const std::filesystem::path& file, std::optional<CameraId> only) {
+  SavedCalibration saved = loadCalibration(file);
+  if (only) saved = onlyOf(saved, implementation_->rig.cameras[static_cast<std::size_t>(only->index())]);
   for (const CalibrationOrder& order : adoptOrders(saved, implementation_->rig))
     if (!orderCalibration(order))
       throw Error(ErrorKind::kSystem, "the engine is still busy with earlier orders", file.string(), "try again");

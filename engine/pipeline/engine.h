@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,10 +79,10 @@ class Engine final : public FlightView {
   /// False if more orders wait than the engine keeps.
   bool orderCalibration(const CalibrationOrder& order);
   /// Where the cameras of the control set stand, with covariance and provenance, to a file; `orderCalibration`
-  /// with what such a file says, for every camera that it names. Both throw Error; the latter orders nothing
-  /// then.
-  void saveCalibration(const std::filesystem::path& file) const;
-  void adoptCalibration(const std::filesystem::path& file);
+  /// with what such a file says, for every camera that it names. With `only` it is about this one. Both throw
+  /// Error; the latter orders nothing then.
+  void saveCalibration(const std::filesystem::path& file, std::optional<CameraId> only = {}) const;
+  void adoptCalibration(const std::filesystem::path& file, std::optional<CameraId> only = {});
 
   // FlightView.
   bool poll() override;

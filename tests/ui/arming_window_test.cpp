@@ -33,14 +33,24 @@ TEST_F(Arming, AClickDoesNotArm) {
 }
 
 TEST_F(Arming, HeldDownItArmsAndAClickDisarms) {
+  EXPECT_EQ(window_->topBar().pilot(), "Nobody") << "flies it";
   QTest::mousePress(arm(), Qt::LeftButton);
   ASSERT_TRUE(eventually([this] { return snapshot().armed; }));
+  EXPECT_TRUE(eventually([this] { return window_->topBar().pilot() == "Helical"; }));
   QTest::mouseRelease(arm(), Qt::LeftButton);
   ASSERT_NO_FATAL_FAILURE(someTicks());
   EXPECT_TRUE(snapshot().armed) << "letting go is no click";
   ASSERT_TRUE(eventually([this] { return arm()->text() == "Disarm"; }));
   click(arm());
   EXPECT_TRUE(eventually([this] { return !snapshot().armed; }));
+}
+
+TEST_F(Arming, ThePilotWhoTookOverByTheTrainerSwitchIsNamed) {
+  EngineSnapshot taken_over = snapshot();
+  taken_over.armed = true;
+  taken_over.devices.transmitter.pilot_flies = true;
+  window_->topBar().show(taken_over);
+  EXPECT_EQ(window_->topBar().pilot(), "Pilot");
 }
 
 TEST_F(Arming, SlippingOffIsLettingGo) {

@@ -7,6 +7,7 @@
 #include <QTemporaryDir>
 #include <QToolButton>
 
+#include "engine/config/calibration_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
 #include "engine/geometry/camera_perturbation.h"
@@ -210,6 +211,59 @@ TEST_F(CalibrationWindow, PlacesAreSavedAndLoaded) {
   EXPECT_TRUE(admitted());
   EXPECT_TRUE(announced("Camera 3: believed to stand where the loaded calibration says"));
   EXPECT_LT((snapshot().cameras[2].estimate.camera_from_world.translation - learnt).norm(), 1e-9);
+}
+
+TEST_F(CalibrationWindow, ThePlaceOfOneCameraIsSavedAndLoadedFromItsRow) {
+  QTemporaryDir folder;
+  const QString file = folder.filePath("place.toml");
+  open(calibratingRig(false));
+  ASSERT_TRUE(eventually([this] { return snapshot().tick > 0; }));
+  ASSERT_TRUE(eventually([this] { return row().saveButton()->isEnabled(); })) << "once it knows its place";
+  ASSERT_TRUE(admitted());
+  click(row().saveButton());
+  ASSERT_NO_FATAL_FAILURE(answerFileDialog(file));
+  ASSERT_TRUE(eventually([&] { return QFile::exists(file); }));
+  const SavedCalibration saved = loadCalibration(file.toStdString());
+  ASSERT_EQ(saved.cameras.size(), 1U);
+  EXPECT_EQ(saved.cameras[0].label, "3");
+  click(window_->cameras().pane(0).hideButton());
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[0].hidden; }));
+  click(row().restartButton());
+  ASSERT_TRUE(eventually([this] { return status() == CameraStatus::kCalibrating; }));
+  EXPECT_TRUE(eventually([this] { return !row().saveButton()->isEnabled(); }));
+  click(row().loadButton());
+  ASSERT_NO_FATAL_FAILURE(answerFileDialog(file));
+  EXPECT_TRUE(admitted());
+  EXPECT_LT((snapshot().cameras[2].estimate.camera_from_world.translation -
+             saved.cameras[0].camera_from_world.translation)
+                .norm(),
+            1e-9);
+}
+
+TEST_F(CalibrationWindow, ThePlotShowsDeOfEachLabellingAndTheRowNamesTheOneThatWasTaken) {
+  open(calibratingRig(false));
+  ASSERT_TRUE(eventually([this] { return snapshot().cameras[2].labellings.count >= 2; }));
+  window_->plots().showSheet(PlotDeck::kLabels);
+  TimePlots& plots = window_->plots().sheet(PlotDeck::kLabels);
+  ASSERT_TRUE(eventually([&] { return plots.pointCount(0, 0) > 10 && plots.pointCount(0, 1) > 10; }))
+      << "camera 3 comes first: it is the one that learns";
+  EXPECT_EQ(plots.note(0), "");
+  EXPECT_NE(plots.note(1), "") << "no method here chooses by misfit";
+  ASSERT_TRUE(eventually([this] { return !row().labelling().isEmpty(); }));
+  EXPECT_EQ(row().labelling().count('-'), snapshot().marker_count - 1);
+  choose("joint");
+  EXPECT_TRUE(eventually([&] { return plots.pointCount(1, 0) > 5; }));
+}
+
+TEST_F(CalibrationWindow, AMethodWithoutParticlesLeavesANoteInTheirPlot) {
+  RigConfig rig = calibratingRig(false);
+  rig.calibrator = "growing-gauss-newton";
+  open(rig);
+  ASSERT_TRUE(eventually([this] { return window_->plots().history().end() > 30; }));
+  TimePlots& plots = window_->plots().sheet(PlotDeck::kCalibration);
+  EXPECT_TRUE(eventually([&] { return plots.note(1) == "Only for particle filters"; }));
+  choose("particle-filter");
+  EXPECT_TRUE(eventually([&] { return plots.note(1).isEmpty(); }));
 }
 
 TEST_F(CalibrationWindow, AFileThatIsNoCalibrationChangesNothingAndIsSaidToBeNone) {

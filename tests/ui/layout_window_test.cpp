@@ -34,12 +34,15 @@ TEST_F(WindowLayout, PanelsComeBackWhereTheyWereLeft) {
       ASSERT_NE(dock(*window, name), nullptr) << name;
     window->addDockWidget(Qt::LeftDockWidgetArea, dock(*window, "Events"));
     dock(*window, "Flight")->hide();
+    dock(*window, "Calibration")->setFloating(true);
     window->close();
   }
   auto window = openWith(file);
   EXPECT_EQ(window->dockWidgetArea(dock(*window, "Events")), Qt::LeftDockWidgetArea);
   EXPECT_FALSE(dock(*window, "Flight")->isVisible());
   EXPECT_TRUE(dock(*window, "Plots")->isVisible());
+  EXPECT_TRUE(dock(*window, "Calibration")->isFloating());
+  EXPECT_TRUE(dock(*window, "Calibration")->isVisible());
 }
 
 TEST_F(WindowLayout, WithoutAFileOrWithANonsensicalOneItOpensAsEver) {

@@ -1,11 +1,15 @@
+#include <QApplication>
+#include <QContextMenuEvent>
 #include <QCursor>
 #include <QFile>
 #include <QImage>
+#include <QMenu>
 #include <QTemporaryDir>
 #include <QTextStream>
 #include <QWheelEvent>
 
 #include "tests/ui/window_fixture.h"
+#include "ui/latency_plot.h"
 #include "ui/plot_deck.h"
 #include "ui/time_plots.h"
 
@@ -83,10 +87,36 @@ TEST_F(PlotsWindow, ThePointerReadsTheTime) {
   EXPECT_LE(*plots.hovered(), window_->plots().axis().end());
 }
 
+TEST_F(PlotsWindow, TheLatencyHistogramIsSavedByARightClick) {
+  ASSERT_NO_FATAL_FAILURE(fly());
+  window_->plots().showSheet(PlotDeck::kLatency);
+  LatencyPlot& plot = window_->plots().latency();
+  ASSERT_TRUE(eventually([&] { return plot.histogram(0).count > 50; }));
+  QContextMenuEvent click(QContextMenuEvent::Mouse, plot.rect().center(), plot.mapToGlobal(plot.rect().center()));
+  QApplication::sendEvent(&plot, &click);
+  auto* menu = plot.findChild<QMenu*>();
+  ASSERT_NE(menu, nullptr);
+  EXPECT_EQ(menu->actions().size(), 3);
+  menu->close();
+  QTemporaryDir folder;
+  for (const char* suffix : {"png", "pdf", "csv"}) ASSERT_TRUE(plot.save(folder.filePath("latency.") + suffix));
+  EXPECT_GT(QImage(folder.filePath("latency.png")).width(), plot.width());
+  QFile pdf(folder.filePath("latency.pdf")), csv(folder.filePath("latency.csv"));
+  ASSERT_TRUE(pdf.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(pdf.read(5) == "%PDF-");
+  ASSERT_TRUE(csv.open(QIODevice::ReadOnly | QIODevice::Text));
+  QTextStream lines(&csv);
+  EXPECT_EQ(lines.readLine(), "from_ms,\"Camera 1 [frames]\",\"Camera 2 [frames]\",\"Camera 3 [frames]\"");
+  int frames = 0;
+  while (!lines.atEnd()) frames += lines.readLine().split(',').at(1).toInt();
+  EXPECT_EQ(frames, plot.histogram(0).count);
+  EXPECT_FALSE(plot.save(folder.filePath("missing/latency.csv")));
+}
+
 TEST_F(PlotsWindow, EverySheetIsSavedAsPicturePageAndTable) {
   ASSERT_NO_FATAL_FAILURE(fly());
   QTemporaryDir folder;
-  for (const auto sheet : {PlotDeck::kFlight, PlotDeck::kFeatures, PlotDeck::kTracking}) {
+  for (const auto sheet : {PlotDeck::kFlight, PlotDeck::kLabels, PlotDeck::kFeatures, PlotDeck::kTracking}) {
     TimePlots& plots = show(sheet);
     const QString base = folder.filePath(plots.page().name);
     ASSERT_TRUE(plots.save(base + ".png"));

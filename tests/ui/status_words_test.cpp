@@ -28,6 +28,21 @@ TEST(StatusWords, ReadinessSaysWhatMattersMost) {
   EXPECT_EQ(word(FlightPhase::kOff, SafetyState::kCut, true), "Cut");
 }
 
+TEST(StatusWords, WhoFliesIsThePilotWhoHasTakenOverWhateverTheEngineDoes) {
+  EngineSnapshot snapshot = snapshotOf(FlightPhase::kIdle, SafetyState::kNormal, true);
+  EXPECT_EQ(pilotWord(snapshot).text, "Nobody");
+  snapshot.armed = true;
+  EXPECT_EQ(pilotWord(snapshot).text, "Helical");
+  snapshot.phase = FlightPhase::kFlying;
+  EXPECT_EQ(pilotWord(snapshot).text, "Helical");
+  snapshot.devices.transmitter.pilot_flies = true;
+  EXPECT_EQ(pilotWord(snapshot).text, "Pilot");
+  EXPECT_EQ(pilotWord(snapshot).color, theme::kCaution);
+  snapshot.devices.transmitter.pilot_flies = false;
+  snapshot.safety = SafetyState::kCut;
+  EXPECT_EQ(pilotWord(snapshot).text, "Nobody");
+}
+
 TEST(StatusWords, NotReadyWhileTheAutopilotWouldRefuse) {
   EngineSnapshot snapshot = snapshotOf(FlightPhase::kIdle, SafetyState::kNormal, true);
   snapshot.obstacle = "it moves";

@@ -1,5 +1,6 @@
 #include "engine/experiments/fault_detection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,7 @@ namespace helical {
 namespace {
 
 constexpr double kPatience = 1.5;  // limits, that a fault must last to count
+constexpr double kShortLimitS = 0.5;  // within it a starved processor has but a few ticks
 
 bool alarms(const EngineSnapshot& tick, Failsafe failsafe) {
   return (tick.alarms & bitOf(failsafe)) != 0;
@@ -14,6 +16,31 @@ bool alarms(const EngineSnapshot& tick, Failsafe failsafe) {
 
 const CameraSnapshot& cameraOf(const Fault& fault, const EngineSnapshot& tick) {
   return tick.cameras[static_cast<std::size_t>(fault.camera.index())];
+}
+
+bool isAbout(const Fault& fault, CameraId camera) {
+  return fault.camera == camera || (fault.kind == FaultKind::kCamerasSwapped && fault.other == camera);
+}
+
+/// Whether `other` leaves nothing there to notice `fault` by in the time that it has: nothing comes from the camera,
+/// there is nothing in its images, or no processor runs.
+bool isHiddenBehind(const Fault& fault, const Fault& other) {
+  const double limit_s = detectionLimit(fault.kind);
+  if (other.from_s > fault.from_s + kPatience * limit_s || other.to_s < fault.from_s) return false;
+  const bool by_image = fault.kind == FaultKind::kCameraKnocked || fault.kind == FaultKind::kCamerasSwapped;
+  const bool by_frame = by_image || fault.kind == FaultKind::kCameraLate || fault.kind == FaultKind::kClockJump;
+  switch (other.kind) {
+    case FaultKind::kProcessorStarved:
+      return limit_s <= kShortLimitS && fault.kind != FaultKind::kProcessorStarved;
+    case FaultKind::kCameraLost:
+      return by_frame && isAbout(fault, other.camera);
+    case FaultKind::kCameraHidden:
+      return by_image && isAbout(fault, other.camera);
+    case FaultKind::kCamerasHidden:
+      return by_image;
+    default:
+      return false;
+  }
 }
 
 /// Those whose rule needs rotors that turn.
@@ -24,8 +51,10 @@ bool needsRotors(FaultKind kind) {
 }  // namespace
 
 FaultDetection::FaultDetection(const std::vector<Fault>& faults) {
-  for (const Fault& fault : faults)
-    if (!std::isnan(detectionLimit(fault.kind))) watched_.push_back({.fault = fault});
+  for (const Fault& fault : faults) {
+    const bool hidden = std::any_of(faults.begin(), faults.end(), [&](const Fault& other) { return isHiddenBehind(fault, other); });
+    if (!std::isnan(detectionLimit(fault.kind)) && !hidden) watched_.push_back({.fault = fault});
+  }
 }
 
 bool FaultDetection::isNoticed(const Watched& watched, const EngineSnapshot& tick) {

@@ -8,7 +8,8 @@
 namespace helical {
 
 /// Watches a flight's ticks for the moments at which its faults are noticed. Counts those alone that last longer than
-/// their limit, begin when there is something to notice, and are not hidden behind what was noticed before. One thread.
+/// their limit, begin when there is something to notice, and are hidden neither behind what was noticed before nor
+/// behind a fault that leaves nothing to notice them by. One thread.
 class FaultDetection {
  public:
   explicit FaultDetection(const std::vector<Fault>& faults);

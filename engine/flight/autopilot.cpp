@@ -145,9 +145,19 @@ AutopilotOutput Autopilot::step(const AutopilotInput& input) {
   return output;
 }
 
+/// On the skids with fewer cameras than it takes to arm: it is not to leave the ground on the last one.
+bool Autopilot::isBlocked(const AutopilotInput& input) {
+  const bool enough = input.health.live_cameras >= safety_options_.arm_cameras;
+  if (enough || few_since_ < 0) few_since_ = enough ? -1 : input.now;
+  const bool on_skids = phase_ == FlightPhase::kSpinUp || phase_ == FlightPhase::kLiftOff;
+  const bool blocked = on_skids && !enough && toSeconds(input.now - few_since_) > safety_options_.neutral_after_s;
+  if (blocked) refusal_ = toString(PreArmCheck::kCameras);
+  return blocked;
+}
+
 void Autopilot::advance(const AutopilotInput& input, double height) {
   const double in_phase = toSeconds(input.now - phase_since_);
-  const bool ordered = input.commands.land || supervisor_.state == SafetyState::kLandNow;
+  const bool ordered = isBlocked(input) || input.commands.land || supervisor_.state == SafetyState::kLandNow;
   switch (phase_) {
     case FlightPhase::kIdle:
       awaitStart(input);

@@ -54,6 +54,7 @@ class Autopilot {
  private:
   SupervisorConditions conditions(const AutopilotInput& input, double height) const;
   void obey(const OperatorCommands& commands);
+  bool isBlocked(const AutopilotInput& input);
   void advance(const AutopilotInput& input, double height);
   StickDemand act(const AutopilotInput& input, double height);
   StickDemand flyBlind(const AutopilotInput& input);
@@ -84,6 +85,7 @@ class Autopilot {
   bool holding_ = false;
   Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();  ///< smoothed velocity [m/s]
   StickDemand sticks_;                               ///< of the last tick
+  TimeNs few_since_ = -1;                            ///< fewer live cameras than it takes to arm
   TimeNs seen_since_ = -1;                           ///< on the ground, without a gap
   TimeNs still_since_ = -1;                          ///< while landing, with the reference at its lower end
   const char* refusal_ = nullptr;

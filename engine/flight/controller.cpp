@@ -80,7 +80,12 @@ StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_po
   const Eigen::Matrix2d heading = Eigen::Rotation2Dd(-yaw).toRotationMatrix();
 
   const double height_error = set_point.position_in_world.z() - state.world_from_body.translation.z();
-  if (sighted) learnHoverThrust(state.velocity_in_world.z(), dt);
+  if (sighted && fly.integrate_position) {
+    learnHoverThrust(state.velocity_in_world.z(), dt);
+  } else {
+    thrust_of_motors_ = thrust_;
+    climb_expected_ = state.velocity_in_world.z();
+  }
   if (sighted)
     height_integral_ = std::clamp(height_integral_ + options_.height_i * height_error * dt,
                                   -kHeightIntegralLimit, kHeightIntegralLimit);
@@ -118,7 +123,8 @@ StickDemand Controller::fly(const HelicopterState& state, const SetPoint& set_po
 }
 
 bool Controller::spinDown(double rate, double dt, StickDemand& demand) {
-  thrust_ -= rate * dt;
+  // However hard it was braking: what stands on its skids is not to hop.
+  thrust_ = std::min(thrust_, hover_thrust_) - rate * dt;
   position_integral_ *= std::exp(-2.0 * dt);
   demand = mix(thrust_, yaw_integral_, position_integral_, true, dt);
   return base_ * trim_lower_ + thrust_ < 0.1;

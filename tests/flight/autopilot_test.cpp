@@ -347,6 +347,23 @@ TEST(Autopilot, BlindDescentEndsSoftlyAndInCut) {
   EXPECT_EQ(flight.output.phase, FlightPhase::kOff) << "a cut is for good";
 }
 
+TEST(Autopilot, DoesNotLeaveTheGroundOnOneCamera) {
+  for (const auto phase : {FlightPhase::kSpinUp, FlightPhase::kLiftOff}) {
+    Flight flight;
+    flight.tick(kTakeOff);
+    ASSERT_TRUE(flight.runUntil(phase));
+    flight.input.health.live_cameras = 1;
+    flight.run(0.1);
+    EXPECT_EQ(flight.output.phase, phase) << "for a moment it may";
+    std::string refusal;
+    for (int i = 0; i < 200; ++i)
+      if (flight.tick().refusal != nullptr) refusal = flight.output.refusal;
+    EXPECT_EQ(flight.output.phase, FlightPhase::kOff);
+    EXPECT_EQ(refusal, toString(PreArmCheck::kCameras));
+    EXPECT_LT(flight.height(), 0.02);
+  }
+}
+
 TEST(Autopilot, APoseThatMovesBeforeTheRotorsCarryItIsCut) {
   Flight flight;
   flight.tick(kTakeOff);

@@ -313,5 +313,16 @@ TEST(Controller, SticksStayInTheirRangeWhateverTheState) {
   }
 }
 
+TEST(Controller, DoesNotHopWhenItTouchesDownWhileItBrakes) {
+  Controller controller = hovering(straight());
+  HelicopterState falling = stateAt({0, 0, 0.01});
+  falling.velocity_in_world.z() = -0.9;
+  const StickDemand braking = after(controller, 0.1, falling, setPointAt({0, 0, 0.0}), {.integrate_position = false});
+  StickDemand down;
+  controller.spinDown(0.5, kTick, down);
+  EXPECT_GT(braking.lower_rotor, nominal().hoverStickLower() + 0.05);
+  EXPECT_LT(down.lower_rotor, nominal().hoverStickLower());
+}
+
 }  // namespace
 }  // namespace helical

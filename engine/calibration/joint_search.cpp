@@ -22,7 +22,7 @@ constexpr double kSeedRmsPx = 2.0,
 constexpr double kSeedRotation = 0.02, kSeedPosition = 0.06;  // how far off a planar pose may be [rad, m]
 constexpr double kSameRotation = 0.02, kSamePosition = 0.06;
 constexpr int kIterations = 12;
-constexpr int kFairIterations = 3;
+constexpr int kFairIterations = 4;
 constexpr double kHopelessChi2 = 200.0;
 constexpr double kSettledDecrease = 0.05;  // squared sigmas
 constexpr double kFarthestM = 50.0;
@@ -99,16 +99,15 @@ void JointSearch::step(const UnnamedFrame& frame, int units) {
   }
   waiting_[static_cast<std::size_t>(waiting_count_++)] = frame;
   if (!in_round_) beginRound();
-  const int each = std::max(1, static_cast<int>(store_.frames().size()));
-  do {
+  while (units > 0) {
     Hypothesis* next = unsettled();
     if (next == nullptr) {
       endRound();
       return;
     }
     improve(*next);
-    units -= each;
-  } while (units >= each);
+    units -= static_cast<int>(store_.frames().size());
+  }
 }
 
 bool JointSearch::wantsSeeds() const {

@@ -39,8 +39,8 @@ class JointSearch {
 
   void clear();
 
-  /// One frame's share of the work, in units of one frame looked at under one hypothesis: no more than `units`, or
-  /// one look at all kept frames.
+  /// One frame's share of the work, in units of one frame looked at under one hypothesis: no more than
+  /// `kMaxFrames` beyond `units`.
   void step(const UnnamedFrame& frame, int units);
 
   /// Where the camera may be; between rounds the best one is the first.

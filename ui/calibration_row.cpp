@@ -63,7 +63,7 @@ CalibrationRow::CalibrationRow(const CameraConfig& config, int camera, QWidget* 
       orientation_{makeValue(theme::kText), makeValue(theme::kMuted), makeValue(theme::kMuted)},
       effective_name_(makeLabel(tr("Effective"), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft)),
       effective_(makeValue(theme::kText)),
-      labelling_name_(makeLabel(tr("Balls, left to right"), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft)),
+      labelling_name_(makeLabel(tr("Labelling"), theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft)),
       labelling_(makeValue(theme::kText)) {
   const QString name = QString::fromStdString(config.name);
   auto* grid = new QGridLayout(this);
@@ -187,7 +187,8 @@ void CalibrationRow::showNumbers(const CameraSnapshot& state) {
 void CalibrationRow::showLabelling(const TriedLabellings& tried) {
   for (QLabel* label : {labelling_name_, labelling_}) label->setVisible(tried.count > 0);
   QString taken;
-  QStringList all{tried.by_misfit ? tr("Labellings weighed up, with their misfit in standard deviations:")
+  QStringList all{tr("The balls in the image, from left to right, as it takes them."),
+                  tried.by_misfit ? tr("Labellings weighed up, with their misfit in standard deviations:")
                                   : tr("Labellings weighed up, with their distance De from the first guess:")};
   for (int i = 0; i < tried.count; ++i) {
     const TriedLabelling& labelling = tried.all[static_cast<std::size_t>(i)];

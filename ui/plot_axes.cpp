@@ -11,7 +11,7 @@
 namespace helical {
 namespace {
 
-constexpr int kTicks = 4;  // about, on a linear axis
+constexpr int kTicks = 3;  // about, on a linear axis
 
 void colourAxis(QCPAxis* axis) {
   axis->setBasePen(QPen(theme::kLine));
@@ -45,7 +45,7 @@ void styleValueAxis(const DrawnLane& lane) {
     value->setNumberPrecision(6);
   } else {
     value->setNumberFormat(QStringLiteral("f"));
-    value->ticker()->setTickCount(kTicks - 1);
+    value->ticker()->setTickCount(kTicks);
   }
 }
 
@@ -85,6 +85,14 @@ void fitLogarithm(const DrawnLane& lane) {
       ->setRange(std::pow(10.0, lowest), std::pow(10.0, std::max(highest, lowest + 2.0)));
 }
 
+/// As many as show every tick exactly: they are 1, 2, 2.5 or 5 times a power of ten apart.
+int digitsOfTicks(double range) {
+  const double step = range / kTicks, decade = std::floor(std::log10(step)), mantissa = step / std::pow(10.0, decade);
+  const bool quarters = mantissa > 2.25 && mantissa < 3.75;  // QCPAxisTicker takes the nearest
+  const bool next_decade = mantissa > 7.5;
+  return std::clamp(static_cast<int>(-decade) + (quarters ? 1 : 0) - (next_decade ? 1 : 0), 0, 5);
+}
+
 /// Whole steps, so that the axis does not tremble with the noise.
 void fitLinear(const DrawnLane& lane) {
   const PlotLane& description = lane.description;
@@ -98,8 +106,7 @@ void fitLinear(const DrawnLane& lane) {
   const double top = std::max(high, low + description.smallest_span);
   QCPAxis* axis = lane.rect->axis(QCPAxis::atLeft);
   axis->setRange(low - margin, top + margin);
-  // As many digits as tell neighbouring ticks apart.
-  axis->setNumberPrecision(std::clamp(static_cast<int>(std::ceil(-std::log10((top - low) / kTicks) - 0.01)), 0, 4));
+  axis->setNumberPrecision(digitsOfTicks(axis->range().size()));
 }
 
 }  // namespace

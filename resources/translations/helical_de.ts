@@ -2392,10 +2392,6 @@ m/s</translation>
         <translation>wird mit allen anderen zusammen bestimmt</translation>
     </message>
     <message>
-        <source>Balls, left to right</source>
-        <translation>Kugeln von links</translation>
-    </message>
-    <message>
         <source>Labelling</source>
         <translation>Benennung</translation>
     </message>
@@ -2726,6 +2722,10 @@ m/s</translation>
     <message>
         <source>The device belongs to the flight: this window closes, and comes back when the channels are calibrated or you cancel. Go on?</source>
         <translation>Das Gerät gehört zum Flug: dieses Fenster schließt sich und kommt wieder, wenn die Kanäle kalibriert sind oder Sie abbrechen. Weiter?</translation>
+    </message>
+    <message>
+        <source>The balls in the image, from left to right, as it takes them.</source>
+        <translation>Die Kugeln im Bild von links nach rechts, wie sie sie benennt.</translation>
     </message>
 </context>
 </TS>

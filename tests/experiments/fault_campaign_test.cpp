@@ -50,8 +50,8 @@ TEST(FaultCampaign, OfAThousandFlights) {
   const FaultStudy study = studyFaults(rig, plan, kFlights, 1, [](int) {});
   leaveReport(study);
   EXPECT_TRUE(study.bad_armings.empty());
-  EXPECT_LE(study.breaches.size(), 5u);
-  EXPECT_LE(study.hard_landings.size(), 15u);
+  EXPECT_TRUE(study.breaches.empty());
+  EXPECT_LE(study.hard_landings.size(), 2u);
 }
 
 }  // namespace

@@ -119,6 +119,13 @@ void EmulatedPort::unplug() {
     const std::lock_guard lock(mutex_);
     if (gone_) return;
     gone_ = true;
+  }
+  const std::string path = "/sys" + sysfs_;
+  // Before the transfers end: who waits for one closes its ear for events then, and umockdev ends the process when it
+  // finds one closed on its way to it.
+  umockdev_testbed_uevent(bed_, path.c_str(), "remove");
+  {
+    const std::lock_guard lock(mutex_);
     for (const auto& transfer : pending_) {
       finish(*transfer, -ESHUTDOWN, {});
       done_.push_back(transfer);
@@ -128,8 +135,6 @@ void EmulatedPort::unplug() {
     if (master_ >= 0) close(master_);
     master_ = -1;
   }
-  const std::string path = "/sys" + sysfs_;
-  umockdev_testbed_uevent(bed_, path.c_str(), "remove");
   umockdev_testbed_remove_device(bed_, path.c_str());
   umockdev_testbed_detach_ioctl(bed_, node_.c_str(), nullptr);
   unlink(node_file_.c_str());

@@ -40,6 +40,7 @@ class EmulatedPort {
   bool handle(UMockdevIoctlClient* client);
   void makeNode(Access access);
   void announce();
+  void takeAway(bool announced);
   void tellCapabilities(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   int submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   int reap(UMockdevIoctlData* argument);

@@ -169,7 +169,8 @@ void run(bool as_json, const std::string& instructions) {
 }  // namespace
 
 void addMarkersBench(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("markers", "The extractor beside OpenCV and one read of the frame; its centroids beside their bound");
+  CLI::App* command = app.add_subcommand(
+      "markers", "The extractor beside OpenCV and one read of the frame; its centroids beside their bound");
   auto as_json = std::make_shared<bool>(false);
   auto instructions = std::make_shared<std::string>();
   command->add_flag("--json", *as_json, "One JSON object on stdout");

@@ -151,20 +151,24 @@ std::string calibrationReportJson(const CalibrationReport& report) {
 std::string calibrationReportText(const CalibrationReport& report) {
   std::string text;
   if (!report.conditions.empty()) {
-    text += "A camera calibrated in flight, over " + std::to_string(report.runs) +
-            " flights of 13 s for each line; position error over its Cramer-Rao bound,\nwith 95 % intervals\n\n" +
-            formatted("%-33s %-23s %17s %17s %17s %14s %11s %10s %14s\n", "", "", "RMSE/CRLB at", "", "", "within 1 cm,",
-                      "s to 1 cm,", "NEES in", "us a frame") +
-            formatted("%-33s %-23s %17s %17s %17s %14s %5s %5s %6s %-3s %6s %5s\n", "flights", "method", "1 s", "5 s",
-                      "13 s", "0.5 degrees", "half", "p90", "13 s", "band", "mean", "99.9%");
+    text +=
+        "A camera calibrated in flight, over " + std::to_string(report.runs) +
+        " flights of 13 s for each line; position error over its Cramer-Rao bound,\nwith 95 % intervals\n\n" +
+        formatted("%-33s %-23s %17s %17s %17s %14s %11s %10s %14s\n", "", "", "RMSE/CRLB at", "", "",
+                  "within 1 cm,", "s to 1 cm,", "NEES in", "us a frame") +
+        formatted("%-33s %-23s %17s %17s %17s %14s %5s %5s %6s %-3s %6s %5s\n", "flights", "method", "1 s",
+                  "5 s", "13 s", "0.5 degrees", "half", "p90", "13 s", "band", "mean", "99.9%");
     for (const auto& result : report.conditions) text += rowOf(result);
     text += "\nWithin 1 cm: and 0.5 degrees, at 13 s. NEES: 6 where the covariance is true.\n";
   }
   if (!report.knocks.empty()) {
-    text += "\nOne camera of three in control is knocked (small knocks about an axis across the line of sight); seconds after it\n"
-            "                           found within           found           within 1 cm for good   in again   "
-            "   alarms of\n"
-            "knock            limit         (95 %)         median    p90   median    p90   median    p90   others\n";
+    text +=
+        "\nOne camera of three in control is knocked (small knocks about an axis across the line of sight); "
+        "seconds after it\n"
+        "                           found within           found           within 1 cm for good   in again   "
+        "   alarms of\n"
+        "knock            limit         (95 %)         median    p90   median    p90   median    p90   "
+        "others\n";
     for (const auto& result : report.knocks) text += rowOf(result);
   }
   for (const auto& [condition, result] : report.quiet)

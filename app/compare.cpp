@@ -46,7 +46,8 @@ std::vector<SessionSummary> readSessions(const std::vector<std::string>& files) 
 void requireFigures(const Arguments& arguments) {
   if (arguments.out.empty() && arguments.figures.empty()) return;
 #ifndef HELICAL_HAS_WINDOW
-  throw Error(ErrorKind::kInput, "this build draws no figures", "--out", "build the preset release, or leave out --out and --figures");
+  throw Error(ErrorKind::kInput, "this build draws no figures", "--out",
+              "build the preset release, or leave out --out and --figures");
 #endif
 }
 

@@ -23,7 +23,8 @@ struct Arguments {
 RigConfig usbRig(const std::string& file) {
   RigConfig rig = loadRig(file);
   if (!isUsb(rig.transmitter))
-    throw Error(ErrorKind::kInput, "the rig's transmitter is '" + rig.transmitter.kind + "', which has no channels", file,
+    throw Error(ErrorKind::kInput,
+                "the rig's transmitter is '" + rig.transmitter.kind + "', which has no channels", file,
                 "name a device in [transmitter]: kind = \"mcc-usb-3100\" or \"crazyradio\"");
   return rig;
 }

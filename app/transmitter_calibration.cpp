@@ -31,7 +31,8 @@ std::optional<OutputChannel> measureChannel(Conversation& talk, OutputProbe& pro
     volts = found.value_or(volts);
     return found.has_value();
   };
-  if (!ask(ends.low, words.low) || !ask(ends.neutral, throttle ? "at half" : "at neutral") || !ask(ends.high, words.high))
+  if (!ask(ends.low, words.low) || !ask(ends.neutral, throttle ? "at half" : "at neutral") ||
+      !ask(ends.high, words.high))
     return std::nullopt;
   probe.put(throttle ? ends.low : ends.neutral);
   const auto slew = talk.askNumber(name + ", fastest change in volts a second, 0 for any", 0.0, [](double) {});
@@ -44,7 +45,8 @@ std::optional<OutputChannels> measureVoltages(Conversation& talk, const std::str
   Conversation::say(
       "Motors off: take their battery out, or disconnect them. Each question tries the voltage that is in brackets;\n"
       "another number tries that one, an empty line takes it. Ctrl-C gives up.\n");
-  const auto mixed = talk.askYes("Does the transmitter have one channel for throttle and one for yaw (not one for each rotor)?");
+  const auto mixed = talk.askYes(
+      "Does the transmitter have one channel for throttle and one for yaw (not one for each rotor)?");
   if (!mixed) return std::nullopt;
   OutputChannels channels;
   for (const StickAxis axis : axesOf(*mixed)) {

@@ -27,7 +27,9 @@ bool lookAtDirections(Conversation& talk, TransmitterOptions& transmitter) {
       continue;
     }
     if (isThrottle(channel.axis)) {
-      Conversation::say("calibrate it anew; a throttle that goes the wrong way is turned round in the transmitter itself\n");
+      Conversation::say(
+          "calibrate it anew; a throttle that goes the wrong way is turned round in the transmitter "
+          "itself\n");
       return false;
     }
     const auto turn = talk.askYes("Does it go the other way? Then it is turned round here, and you look again.");

@@ -13,8 +13,9 @@ class QSpinBox;
 
 namespace helical {
 
-/// One axis of an analogue transmitter: which output carries it, what it needs there for the two ends of the stick's way
-/// and between them, trim, slew and reverse. Whatever voltage is looked at or changed is tried at once.
+/// One axis of an analogue transmitter: which output carries it, what it needs there for the two ends of the
+/// stick's way and between them, trim, slew and reverse. Whatever voltage is looked at or changed is tried at
+/// once.
 class ChannelPage : public QWidget {
   Q_OBJECT
 

@@ -92,9 +92,10 @@ QWidget* ChannelsDialog::buildIntroduction() {
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(12);
-  layout->addWidget(paragraph(
-      tr("The sticks will be moved, throttle included. Take the helicopter's motor battery out, or disconnect the motors, "
-         "and keep only the radio and the servos powered.")));
+  layout->addWidget(
+      paragraph(tr("The sticks will be moved, throttle included. Take the helicopter's motor battery out, or "
+                   "disconnect the motors, "
+                   "and keep only the radio and the servos powered.")));
   motors_off_ = new QCheckBox(tr("The motors cannot turn"));
   motors_off_->setAccessibleName(motors_off_->text());
   layout->addWidget(motors_off_);
@@ -233,8 +234,9 @@ void ChannelsDialog::enter(int index) {
     channel->lowEnd()->setFocus();
     Q_EMIT channel->tried(channel->lowEnd()->value());
   }
-  end_->setText(directions_->done() ? tr("Every stick has been seen to go the right way. Save, and the rig can arm.")
-                                    : tr("Saved like this the rig does not arm: nobody has seen which way the sticks go."));
+  end_->setText(directions_->done()
+                    ? tr("Every stick has been seen to go the right way. Save, and the rig can arm.")
+                    : tr("Saved like this the rig does not arm: nobody has seen which way the sticks go."));
 }
 
 void ChannelsDialog::showButtons() {

@@ -20,9 +20,10 @@ namespace helical {
 class ChannelPage;
 class DirectionPage;
 
-/// Guides through the calibration of a USB transmitter: motors off; at an analogue output one page for each channel, whose
-/// voltages are tried as they are typed, at a radio how much of each is wanted; then a look which way each stick goes.
-/// What was found is saved at the end. Owns the device meanwhile: nobody may fly with it.
+/// Guides through the calibration of a USB transmitter: motors off; at an analogue output one page for each
+/// channel, whose voltages are tried as they are typed, at a radio how much of each is wanted; then a look
+/// which way each stick goes. What was found is saved at the end. Owns the device meanwhile: nobody may fly
+/// with it.
 class ChannelsDialog : public QDialog {
   Q_OBJECT
 

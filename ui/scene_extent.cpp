@@ -7,7 +7,8 @@ namespace {
 
 constexpr double kAirRadius = 1.0, kAirHeight = 1.2;  // m: where helicopters of this kind are
 
-void addCamera(std::vector<Eigen::Vector3d>& points, const CameraModel& model, const RigidTransform& camera_from_world) {
+void addCamera(std::vector<Eigen::Vector3d>& points, const CameraModel& model,
+               const RigidTransform& camera_from_world) {
   const RigidTransform world_from_camera = camera_from_world.inverse();
   points.push_back(world_from_camera.translation);
   const double w = model.width() - 0.5, h = model.height() - 0.5;

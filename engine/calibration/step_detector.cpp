@@ -20,7 +20,8 @@ constexpr double kLargestMisfit = 2.5;  // over a centroid's variance: one false
 // Centroids' noise is learnt over so many frames, from what their covariance claims; so is the helicopter's motion.
 constexpr double kNoiseFrames = 120, kMotionFrames = 500;
 constexpr double kLeastNoise = 0.25, kMostNoise = 2.0;  // variance over the one claimed
-constexpr double kMotionAllowance = 4.0;  // variance of the motion that a step must not be taken for, over the usual one
+// Variance of the motion that a step must not be taken for, over the usual one.
+constexpr double kMotionAllowance = 4.0;
 // On average over all cameras: more is a jolt of the helicopter, which no parabola follows.
 constexpr double kCalmMisfit = 1.4;
 constexpr double kLeastJerkM = 1e-6;

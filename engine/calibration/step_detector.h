@@ -19,15 +19,16 @@ struct StepDetectorOptions {
 /// Throws Error(kInput) naming the offending key.
 void validate(const StepDetectorOptions& options);
 
-/// Knocks too small to throw the balls out of their gates: a camera that turns by a twentieth of a degree moves all of
-/// them by half a pixel at once, which no helicopter can. Each camera's images are looked at by themselves: along
-/// each ball's track a parabola and a step are fitted, a step near its end for large knocks, which then are found within
-/// two frames, and one in its middle for small ones; the mean of the steps of balls that this fits is the camera's. A
-/// jerk of the helicopter looks like a step, too, but in all cameras, as one shift in space. So the steps
-/// s_i = H_i x + n_i of all cameras are weighed together, x ~ N(0, what it has lately been), and the camera whose own
-/// step, free, explains most is named when nothing is left over for the others to explain, twice in a row and while
-/// all tracks are smooth. Offsets that change slowly, errors of calibration among them, are no steps. Needs three cameras: of two none is named. One thread;
-/// allocates nothing.
+/// Knocks too small to throw the balls out of their gates: a camera that turns by a twentieth of a degree
+/// moves all of them by half a pixel at once, which no helicopter can. Each camera's images are looked at by
+/// themselves: along each ball's track a parabola and a step are fitted, a step near its end for large
+/// knocks, which then are found within two frames, and one in its middle for small ones; the mean of the
+/// steps of balls that this fits is the camera's. A jerk of the helicopter looks like a step, too, but in all
+/// cameras, as one shift in space. So the steps s_i = H_i x + n_i of all cameras are weighed together, x ~
+/// N(0, what it has lately been), and the camera whose own step, free, explains most is named when nothing is
+/// left over for the others to explain, twice in a row and while all tracks are smooth. Offsets that change
+/// slowly, errors of calibration among them, are no steps. Needs three cameras: of two none is named. One
+/// thread; allocates nothing.
 class StepDetector {
  public:
   explicit StepDetector(const StepDetectorOptions& options = {});

@@ -70,7 +70,8 @@ std::string rigWithChannels(std::string_view toml, const std::string& name, cons
   // What it says now is what was meant, or it is not written at all.
   const TransmitterOptions read = parseRig(text, name).transmitter;
   if (fingerprintOf(read.channels) != fingerprintOf(channels) || read.directions_checked != directions_checked)
-    throw Error(ErrorKind::kInput, "the transmitter's table is written in a way that cannot be changed line by line", name,
+    throw Error(ErrorKind::kInput,
+                "the transmitter's table is written in a way that cannot be changed line by line", name,
                 "write [transmitter] and [[transmitter.channel]] as tables of their own");
   return text;
 }

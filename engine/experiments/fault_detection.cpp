@@ -52,7 +52,8 @@ bool needsRotors(FaultKind kind) {
 
 FaultDetection::FaultDetection(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) {
-    const bool hidden = std::any_of(faults.begin(), faults.end(), [&](const Fault& other) { return isHiddenBehind(fault, other); });
+    const bool hidden = std::any_of(faults.begin(), faults.end(),
+                                    [&](const Fault& other) { return isHiddenBehind(fault, other); });
     if (!std::isnan(detectionLimit(fault.kind)) && !hidden) watched_.push_back({.fault = fault});
   }
 }
@@ -97,7 +98,9 @@ void FaultDetection::add(const EngineSnapshot& tick) {
     if (!w.counts || w.detected_s >= 0.0) continue;
     if (watchable) w.watched_until_s = time_s;
     if (isNoticed(w, tick)) w.detected_s = time_s;
-    if (!watchable) w.counts = w.detected_s >= 0.0 || w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
+    if (!watchable)
+      w.counts = w.detected_s >= 0.0 ||
+                 w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
   }
 }
 
@@ -106,7 +109,8 @@ std::vector<Detection> FaultDetection::result() const {
   for (const Watched& w : watched_) {
     const bool long_enough = w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
     if (!w.counts || (w.detected_s < 0.0 && !long_enough)) continue;
-    all.push_back({w.fault.kind, w.detected_s >= 0.0 ? w.detected_s - w.fault.from_s : std::numeric_limits<double>::infinity()});
+    all.push_back({w.fault.kind, w.detected_s >= 0.0 ? w.detected_s - w.fault.from_s
+                                                     : std::numeric_limits<double>::infinity()});
   }
   return all;
 }

@@ -88,7 +88,8 @@ bool FaultySource::suffer(Observation& observation, TimeNs& late) {
 bool FaultySource::poll(Observation& observation) {
   // What was on its way is lost with its camera.
   const auto is_lost = [this](const Fault& fault) {
-    return fault.kind == FaultKind::kCameraLost && fault.camera == source_->camera() && actsNow(fault, toSeconds(clock_->now()));
+    return fault.kind == FaultKind::kCameraLost && fault.camera == source_->camera() &&
+           actsNow(fault, toSeconds(clock_->now()));
   };
   if (std::any_of(faults_.begin(), faults_.end(), is_lost)) waiting_.clear();
   Observation newest;

@@ -73,10 +73,11 @@ void goThroughTable(const SupervisorOptions& options, const SupervisorConditions
 SupervisorConditions believed(const SupervisorConditions& told) {
   constexpr double kWorst = std::numeric_limits<double>::infinity();
   SupervisorConditions c = told;
-  const bool sound = c.place.allFinite() && std::isfinite(c.tilt) && std::isfinite(c.speed) && !std::isnan(c.pose_age_s);
+  const bool sound =
+      c.place.allFinite() && std::isfinite(c.tilt) && std::isfinite(c.speed) && !std::isnan(c.pose_age_s);
   if (!sound) c.pose_age_s = kWorst;
-  for (double* doubt : {&c.health.residual_ratio, &c.health.position_sigma, &c.health.rotation_sigma, &c.health.overrun_s,
-                        &c.flight_time_s})
+  for (double* doubt : {&c.health.residual_ratio, &c.health.position_sigma, &c.health.rotation_sigma,
+                        &c.health.overrun_s, &c.flight_time_s})
     if (std::isnan(*doubt)) *doubt = kWorst;
   return c;
 }

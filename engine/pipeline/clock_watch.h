@@ -6,10 +6,11 @@
 
 namespace helical {
 
-/// Whether one camera's stamps can be believed, from the time that its frames take from exposure to arrival: that moves
-/// when frames come late, and when its clock jumps. Which of the two it was shows in the frame in which it moved: were it
-/// the stamps, they break their rhythm, else the arrivals do. Late frames tell the truth about another time; frames of a
-/// clock that jumped put the helicopter where it was not. One thread; allocates nothing.
+/// Whether one camera's stamps can be believed, from the time that its frames take from exposure to arrival:
+/// that moves when frames come late, and when its clock jumps. Which of the two it was shows in the frame in
+/// which it moved: were it the stamps, they break their rhythm, else the arrivals do. Late frames tell the
+/// truth about another time; frames of a clock that jumped put the helicopter where it was not. One thread;
+/// allocates nothing.
 class ClockWatch {
  public:
   void add(const Observation& observation);

@@ -161,7 +161,8 @@ void ControlSet::learn(const Observation& observation, const Tracker& tracker, b
   teachOthers(observation, airborne);
   if (learning_[index] && !hidden_[index] && !frozen_[index]) teach(observation, tracker, airborne);
   if (flown && !hidden_[index]) showToRefinement(observation, tracker, *flown);
-  if (refinement_->work()) takeRefinement(tracker.predict(observation.exposure, airborne).state.world_from_body.translation);
+  if (refinement_->work())
+    takeRefinement(tracker.predict(observation.exposure, airborne).state.world_from_body.translation);
   refreshUsable();
 }
 

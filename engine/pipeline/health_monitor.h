@@ -20,7 +20,9 @@ class HealthMonitor {
 
   void onObservation(const Observation& observation, TimeNs now);
   /// The stamps of its newest frame are wrong: what it shows was somewhere else.
-  bool clockHasJumped(CameraId camera) const { return cameras_[static_cast<std::size_t>(camera.index())].clock.hasJumped(); }
+  bool clockHasJumped(CameraId camera) const {
+    return cameras_[static_cast<std::size_t>(camera.index())].clock.hasJumped();
+  }
 
   /// Once at each control tick. `usable`: cameras of the control set; `last`: the state after the last tick,
   /// with the newest tracks.

@@ -17,8 +17,8 @@ namespace helical {
 /// that any number of markers in any number of cameras counts, down to a few in one. Features are selected as
 /// follows: predict the pose and project the balls; gate by Mahalanobis distance; drop the worst until the
 /// rest pass a joint test; let a rejected feature back in after it has agreed twice; coast on the motion
-/// model when none is left. In the air a place out of reach is not believed. A gap longer than `reacquire_after_s` ends in a new acquisition. Allocates
-/// nothing after construction. One thread.
+/// model when none is left. In the air a place out of reach is not believed. A gap longer than
+/// `reacquire_after_s` ends in a new acquisition. Allocates nothing after construction. One thread.
 class PixelFilter final : public Tracker {
  public:
   PixelFilter(const TrackerOptions& options, const MarkerLayout& markers, std::vector<CameraModel> cameras,

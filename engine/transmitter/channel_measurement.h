@@ -21,8 +21,8 @@ struct StickEnds {
 };
 StickEnds endsOf(StickAxis axis);
 
-/// What an analogue output needs for the two ends of an axis and what lies between them, in volts. The lower end may have
-/// the higher voltage.
+/// What an analogue output needs for the two ends of an axis and what lies between them, in volts. The lower
+/// end may have the higher voltage.
 struct MeasuredEnds {
   double low = 0.5;
   double neutral = 2.5;  ///< of throttle and rotors: half

@@ -22,9 +22,13 @@ DirectionStep directionStep(StickAxis axis) {
     case StickAxis::kYaw:
       return {axis, {0.0, kMoved, 0.0, 0.0}, "yaw: does the transmitter show yaw to the left now?"};
     case StickAxis::kUpperRotor:
-      return {axis, {kThrottled, 0.0, 0.0, 0.0}, "upper rotor: does the transmitter show about a third for it, and no other?"};
+      return {axis,
+              {kThrottled, 0.0, 0.0, 0.0},
+              "upper rotor: does the transmitter show about a third for it, and no other?"};
     case StickAxis::kLowerRotor:
-      return {axis, {0.0, kThrottled, 0.0, 0.0}, "lower rotor: does the transmitter show about a third for it, and no other?"};
+      return {axis,
+              {0.0, kThrottled, 0.0, 0.0},
+              "lower rotor: does the transmitter show about a third for it, and no other?"};
     case StickAxis::kThrottle:
       break;
   }

@@ -263,7 +263,8 @@ TEST_P(AravisCameraComesBack, WithItsSettings) {
   else if (what != "restart")
     stage.device().setFaults(faults);
   const TimeNs began = monotonicNow();
-  ASSERT_TRUE(client.until([&] { return !client.streams() || client.link->returns > 0U; })) << "the loss was not noticed";
+  ASSERT_TRUE(client.until([&] { return !client.streams() || client.link->returns > 0U; }))
+      << "the loss was not noticed";
   RecordProperty("noticed_ms", static_cast<int>((monotonicNow() - began) / kNanosecondsPerMillisecond));
   if (what == "taken") {
     ASSERT_TRUE(client.until([&] { return client.link->state == LinkState::kTaken; }));

@@ -121,7 +121,8 @@ TEST(CalibrationOrder, ARefinementNeedsFramesAndSomethingToRefine) {
   learner.run(1);
   EXPECT_NE(learner.order(CalibrationOrderKind::kRefine, 0), nullptr);
   known.run(8 * kSecond);
-  EXPECT_STREQ(known.order(CalibrationOrderKind::kRefine, 0), "every camera's pose is given exactly, or it saw too little");
+  EXPECT_STREQ(known.order(CalibrationOrderKind::kRefine, 0),
+               "every camera's pose is given exactly, or it saw too little");
 }
 
 TEST(CalibrationOrder, ARefinedCameraStandsWhereAllOfThemTogetherSay) {

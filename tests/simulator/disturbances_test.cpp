@@ -71,7 +71,8 @@ TEST(CameraDisturbances, KnockAcrossTurnsTheLineOfSight) {
   options.bumps = {{kCamera, 3.0, 0.2, 0.0, true}};
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const CameraDisturbances knocked = disturbed(options, seed);
-    const Eigen::Quaterniond before = knocked.cameraFromWorld(2.9).rotation, after = knocked.cameraFromWorld(3.0).rotation;
+    const Eigen::Quaterniond before = knocked.cameraFromWorld(2.9).rotation,
+                             after = knocked.cameraFromWorld(3.0).rotation;
     const Eigen::Vector3d sight = before.conjugate() * Eigen::Vector3d::UnitZ();
     EXPECT_NEAR((after * sight).dot(Eigen::Vector3d::UnitZ()), std::cos(0.2), 1e-9);
   }

@@ -49,7 +49,9 @@ struct EmulatedPort::Transfer {
     return {buffer->data + offset(), buffer->data + urb().buffer_length};
   }
   UsbSetup setup() const {
-    const auto word = [this](int at) { return static_cast<std::uint16_t>(buffer->data[at] | buffer->data[at + 1] << 8); };
+    const auto word = [this](int at) {
+      return static_cast<std::uint16_t>(buffer->data[at] | buffer->data[at + 1] << 8);
+    };
     return {buffer->data[0], buffer->data[1], word(2), word(4), word(6)};
   }
 };
@@ -63,7 +65,8 @@ EmulatedPort::EmulatedPort(UMockdevTestbed* bed, int address, std::shared_ptr<Em
       sysfs_(formatted("/devices/pci0000:00/usb1/1-%d", address)) {
   signal_ = g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&EmulatedPort::onRequest), this);
   GError* failure = nullptr;
-  if (!umockdev_testbed_attach_ioctl(bed_, node_.c_str(), handler_, &failure)) throw std::runtime_error(failure->message);
+  if (!umockdev_testbed_attach_ioctl(bed_, node_.c_str(), handler_, &failure))
+    throw std::runtime_error(failure->message);
   makeNode(access);
   announce();
   watcher_ = std::thread([this] { watchClients(); });
@@ -108,10 +111,11 @@ void EmulatedPort::announce() {
   std::string hex;
   for (const std::uint8_t byte : device_->descriptors()) hex += formatted("%02x", byte);
   // Without the line that would make a node: there is one.
-  const std::string text = "P: " + sysfs_ + "\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: DRIVER=usb\nE: BUSNUM=001\n" +
-                           formatted("E: DEVNUM=%03d\n", address_) + "E: DEVNAME=" + node_ + "\nA: busnum=1\\n\n" +
-                           formatted("A: devnum=%d\\n\n", address_) + "A: bConfigurationValue=1\\n\nA: speed=12\\n\n" +
-                           "H: descriptors=" + hex + "\n";
+  const std::string text = "P: " + sysfs_ +
+                           "\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: DRIVER=usb\nE: BUSNUM=001\n" +
+                           formatted("E: DEVNUM=%03d\n", address_) + "E: DEVNAME=" + node_ +
+                           "\nA: busnum=1\\n\n" + formatted("A: devnum=%d\\n\n", address_) +
+                           "A: bConfigurationValue=1\\n\nA: speed=12\\n\n" + "H: descriptors=" + hex + "\n";
   GError* failure = nullptr;
   if (!umockdev_testbed_add_from_string(bed_, text.c_str(), &failure)) throw std::runtime_error(failure->message);
 }

@@ -22,7 +22,8 @@ class EmulatedPort {
  public:
   enum class Access { kFree, kDenied };
 
-  EmulatedPort(UMockdevTestbed* bed, int address, std::shared_ptr<EmulatedDevice> device, Access access = Access::kFree);
+  EmulatedPort(UMockdevTestbed* bed, int address, std::shared_ptr<EmulatedDevice> device,
+               Access access = Access::kFree);
   ~EmulatedPort();
   EmulatedPort(const EmulatedPort&) = delete;
   EmulatedPort& operator=(const EmulatedPort&) = delete;

@@ -1,5 +1,6 @@
-// The real program helical-output with emulated devices: what the ground station demands arrives as volts and packets, a
-// device that was away comes back at rest, and a ground station that is killed leaves the sticks at rest.
+// The real program helical-output with emulated devices: what the ground station demands arrives as volts and
+// packets, a device that was away comes back at rest, and a ground station that is killed leaves the sticks
+// at rest.
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -44,7 +44,9 @@ class ChannelsDialogTest : public testing::Test {
     dialog_->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(dialog_.get()));
   }
-  void click(QAbstractButton* button) { QTest::mouseClick(button, Qt::LeftButton, {}, QPoint(8, button->height() / 2)); }
+  void click(QAbstractButton* button) {
+    QTest::mouseClick(button, Qt::LeftButton, {}, QPoint(8, button->height() / 2));
+  }
   void next() { click(dialog_->nextButton()); }
   /// As somebody does who types over what is there, and presses Enter.
   void type(QAbstractSpinBox* box, const QString& text) {

@@ -136,7 +136,8 @@ void AravisCamera::orderExposure() {
 
 void AravisCamera::drop(LinkState why) {
   link_->state = why;
-  log(LogLevel::kWarning, "aravis:" + device_ + (why == LinkState::kStalled ? ": no frame any more" : ": control lost") +
+  log(LogLevel::kWarning, "aravis:" + device_ +
+                              (why == LinkState::kStalled ? ": no frame any more" : ": control lost") +
                               ", looks for it again");
   current_->halt(false);
   {
@@ -280,7 +281,8 @@ TimeNs AravisCamera::exposureOf(const ReceivedFrame& received) {
                               : options_.stamped_at == StampedAt::kEnd ? -half_us
                                                                        : 0.0;
   const TimeNs middle = received.device_time + fromSeconds(1e-6 * to_middle_us);
-  if (!received.session->readsClock()) mapping_.addArrival(middle, received.arrival, fromSeconds(1e-3 * options_.readout_ms));
+  if (!received.session->readsClock())
+    mapping_.addArrival(middle, received.arrival, fromSeconds(1e-3 * options_.readout_ms));
   link_->clock_drift.store(mapping_.drift(), std::memory_order_relaxed);
   link_->clock_sigma_s.store(mapping_.sigma(), std::memory_order_relaxed);
   return mapping_.host(middle);

@@ -18,11 +18,11 @@
 
 namespace helical {
 
-/// A GigE Vision or USB3 Vision camera, by Aravis. Frames are views into the stream's buffers, stamped with the
-/// mid-exposure on our clock. Cameras that wait for triggers by software or action get them here, all of a rig at the same
-/// instants of this machine's clock, `rate_hz` times a second. A camera that falls silent, is unplugged, restarts or is
-/// taken by another host is looked for by a thread of its own until it is back, and then gets all its settings again; what
-/// happens stands in the link. One thread polls and waits.
+/// A GigE Vision or USB3 Vision camera, by Aravis. Frames are views into the stream's buffers, stamped with
+/// the mid-exposure on our clock. Cameras that wait for triggers by software or action get them here, all of
+/// a rig at the same instants of this machine's clock, `rate_hz` times a second. A camera that falls silent,
+/// is unplugged, restarts or is taken by another host is looked for by a thread of its own until it is back,
+/// and then gets all its settings again; what happens stands in the link. One thread polls and waits.
 class AravisCamera final : public CameraSource {
  public:
   /// `device`: address or serial number. Opens the camera; throws Error(kDevice) when it is not there, Error(kInput)

@@ -104,7 +104,8 @@ class Setup {
     error_.check(std::string("asking for the bounds of ") + feature, where_);
     if (value < low || needed > high)
       throw Error(ErrorKind::kInput,
-                  std::string("a region that ends at ") + std::to_string(needed) + " px is beyond the camera's " + feature,
+                  std::string("a region that ends at ") + std::to_string(needed) +
+                      " px is beyond the camera's " + feature,
                   where_, "it offers " + std::to_string(low) + " to " + std::to_string(high));
     integer(feature, value);
   }
@@ -120,7 +121,8 @@ class Setup {
       usable += (usable.empty() ? "" : ", ") + offer;
     }
     const std::string what = name.empty() ? "a pixel format that can be used" : "the pixel format '" + name + "'";
-    notOffered(what, usable.empty() ? "use a camera with 8 bit Bayer, colour or grey" : "give format as one of " + usable);
+    notOffered(what, usable.empty() ? "use a camera with 8 bit Bayer, colour or grey"
+                                    : "give format as one of " + usable);
   }
 
   ArvCamera* camera_;

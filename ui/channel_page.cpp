@@ -16,7 +16,6 @@
 namespace helical {
 namespace {
 
-constexpr double kHighestVolts = 10.0;
 constexpr double kFastestSlew = 1000.0;  // V/s: faster than any is no limit
 
 }  // namespace

@@ -92,7 +92,10 @@ struct DiscFit::System {
 DiscFit::DiscFit() : colour_(std::make_unique<DiscCells>()), brightness_(std::make_unique<DiscCells>()) {}
 
 std::optional<Disc> DiscFit::fit(const CellGrid& grid, const Region& region) {
-  if (!readWindow(grid, region)) return std::nullopt;
+  return readWindow(grid, region) ? fitWindow() : std::nullopt;
+}
+
+std::optional<Disc> DiscFit::fitWindow() {
   const auto by_colour = fitColour();
   return by_colour && has_colour_ ? withBrightness(*by_colour) : by_colour;
 }
@@ -122,8 +125,7 @@ Disc DiscFit::fitPart(const CellGrid& grid, Region part, const OutlineCircle& mi
   std::optional<Disc> disc;
   if (readWindow(grid, part)) {
     binary_ = {{mine.centre.x - left_, mine.centre.y - top_}, mine.radius};
-    disc = fitColour();
-    if (disc && has_colour_) disc = withBrightness(*disc);
+    disc = fitWindow();
   }
   neighbour_.reset();
   if (disc) return *disc;

@@ -54,6 +54,7 @@ class DiscFit {
   Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
   ValueWindow window(const Region& region);
   float givenAt(double x, double y) const;
+  std::optional<Disc> fitWindow();
   std::optional<Disc> fitColour();
   std::optional<Disc> withBrightness(const Disc& by_colour);
   bool startBrightness();

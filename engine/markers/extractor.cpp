@@ -45,8 +45,7 @@ struct Extractor::Workspace {
 
   MarkerOptions options;
   std::vector<ColourRange> colours;
-  std::vector<std::shared_ptr<const ColourClass>> classes;   ///< of `colours`, for `format`
-  std::vector<std::shared_ptr<const ColourClass>> prepared;  ///< kept, so that the first frame finds them
+  std::vector<std::shared_ptr<const ColourClass>> classes;  ///< of `colours`, for `format` or the one to come
   BackgroundModel background;
   RegionFinder finder;
   RegionSelection selection;
@@ -78,8 +77,7 @@ void Extractor::Workspace::resize(const ImageView& image) {
   format = image.format;
   finder.resize(grid.width, grid.height);
   if (!ignored_areas.empty()) fillMask(ignored_areas, grid, ignored);
-  classes = classesFor(grid);
-  prepared.clear();
+  classes = classesFor(grid);  // those that `prepare` has built, if it did
 }
 
 CellRule Extractor::Workspace::ruleOf(std::size_t colour) const {
@@ -164,7 +162,7 @@ Extractor& Extractor::operator=(Extractor&&) noexcept = default;
 void Extractor::prepare(PixelFormat format) {
   ImageView image;
   image.format = format;
-  workspace_->prepared = workspace_->classesFor(CellGrid(image));
+  workspace_->classes = workspace_->classesFor(CellGrid(image));
 }
 
 void Extractor::takeBackground() {

@@ -24,7 +24,8 @@ class Extractor {
   Extractor(Extractor&&) noexcept;
   Extractor& operator=(Extractor&&) noexcept;
 
-  /// Builds now what frames of this format need, which takes a tenth of a second; otherwise the first one does.
+  /// Before the first frame: builds what frames of this format need, which takes a tenth of a second; otherwise the
+  /// first one does.
   void prepare(PixelFormat format);
 
   /// Averages the next `background_frames` frames into a new background; until then nothing is found.

@@ -163,4 +163,11 @@ CameraEstimate CameraCalibration::estimate() const {
   return result;
 }
 
+std::unique_ptr<CameraCalibration> newCalibration(const RigConfig& rig, CameraId id, std::string_view method,
+                                                  std::uint64_t seed) {
+  const CameraConfig& camera = rig.cameras[static_cast<std::size_t>(id.index())];
+  return std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body, camera.camera_from_world, seed,
+                                             rig.calibration);
+}
+
 }  // namespace helical

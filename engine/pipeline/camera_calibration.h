@@ -8,6 +8,7 @@
 
 #include "engine/calibration/admission.h"
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/config/rig_config.h"
 #include "engine/correspondence/label_keeper.h"
 #include "engine/correspondence/labelling_search.h"
 #include "engine/tracking/track.h"
@@ -76,5 +77,9 @@ class CameraCalibration {
   bool accepted_ = false;
   TimeNs doubtful_since_ = -1;
 };
+
+/// A camera's calibration anew, from the rig file's guess.
+std::unique_ptr<CameraCalibration> newCalibration(const RigConfig& rig, CameraId camera, std::string_view method,
+                                                  std::uint64_t seed);
 
 }  // namespace helical

@@ -30,8 +30,7 @@ ControlSet::ControlSet(const RigConfig& rig)
     learning_[i] = camera.learns();
     rank_[i] = camera.learns() ? 1 : 0;
     calibrations_[i] =
-        std::make_unique<CameraCalibration>(rig.calibrator, camera.model, markers_, camera.camera_from_world,
-                                            rig.simulation.seed + i, rig.calibration);
+        newCalibration(rig, cameraId(static_cast<int>(i)), rig.calibrator, rig.simulation.seed + i);
   }
   const auto known = std::count_if(rig.cameras.begin(), rig.cameras.end(),
                                    [](const CameraConfig& camera) { return !camera.learns(); });

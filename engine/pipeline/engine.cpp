@@ -23,11 +23,9 @@ void Engine::Implementation::tamper(std::size_t camera) {
 }
 
 void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {
-  const CameraConfig& camera = rig.cameras[index];
   // Another seed each time: a restart should not repeat the luck of the last one.
   const std::uint64_t seed = rig.simulation.seed + index + kMaxCameras * ++calibrations_made;
-  auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig.markers_in_body,
-                                                         camera.camera_from_world, seed, rig.calibration);
+  auto calibration = newCalibration(rig, cameraId(static_cast<int>(index)), method, seed);
   new_calibrations[index].offer(std::make_unique<NewCalibration>(std::move(calibration), seed));
 }
 

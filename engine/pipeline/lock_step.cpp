@@ -129,9 +129,7 @@ void LockStep::hideCamera(CameraId camera, bool hidden) {
 }
 
 void LockStep::calibrate(CameraId id, const std::string& method, std::uint64_t seed) {
-  const CameraConfig& camera = rig_.cameras[static_cast<std::size_t>(id.index())];
-  auto calibration = std::make_unique<CameraCalibration>(method, camera.model, rig_.markers_in_body,
-                                                         camera.camera_from_world, seed, rig_.calibration);
+  auto calibration = newCalibration(rig_, id, method, seed);
   const char* name = calibration->calibrator().name();
   loop_.swapCalibration(id, calibration);
   if (tap_ != nullptr) tap_->onCalibration(id, name, seed, clock_->now());

@@ -49,11 +49,8 @@ void FlightRepeater::observe(std::size_t camera, DecodedObservation decoded) {
   countMissing(decoded.order);
   Observation& observation = decoded.observation;
   observation.camera = cameraId(static_cast<int>(camera));
-  for (const Occlusion& occlusion : changes_.occlusions) {
-    const double time_s = toSeconds(observation.exposure);
-    if (occlusion.camera == observation.camera && time_s >= occlusion.from_s && time_s < occlusion.to_s)
-      observation.count = 0;
-  }
+  for (const Occlusion& occlusion : changes_.occlusions)
+    if (occlusion.covers(observation.camera, toSeconds(observation.exposure))) observation.count = 0;
   loop_.onObservation(observation, decoded.used);
 }
 
@@ -69,12 +66,10 @@ void FlightRepeater::obey(const DecodedOrder& order) {
   const CameraId id = cameraId(order.camera);
   if (order.kind == "hide" || order.kind == "show") loop_.hideCamera(id, order.kind == "hide");
   if (order.decided) loop_.orderCalibration(*order.decided);
-  const CameraConfig& camera = rig_.cameras[static_cast<std::size_t>(order.camera)];
   if (order.kind != "calibrate") return;
   const std::string& method = changes_.other_calibrator ? rig_.calibrator : order.method;
   replay_.other_methods = replay_.other_methods || method != order.method;
-  auto calibration = std::make_unique<CameraCalibration>(
-      method, camera.model, rig_.markers_in_body, camera.camera_from_world, order.seed, rig_.calibration);
+  auto calibration = newCalibration(rig_, id, method, order.seed);
   loop_.swapCalibration(id, calibration);
 }
 

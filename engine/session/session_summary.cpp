@@ -30,7 +30,6 @@ SessionSample::Camera sampleOf(const CameraSnapshot& camera, int markers) {
   sample.orientation_sigma = known ? std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace()) : kUnknown;
   sample.position_sigma = known ? std::sqrt(estimate.covariance.bottomRightCorner<3, 3>().trace()) : kUnknown;
   sample.position_bound = camera.calibration_bound ? camera.calibration_bound->position_m : kUnknown;
-  sample.covered = camera.hidden || camera.boards > 0;
   sample.residual_px = camera.track.selected_count > 0 ? camera.track.residual_px : kUnknown;
   sample.latency_ms = camera.frames > 0 ? 1e-6 * static_cast<double>(camera.latency) : kUnknown;
   sample.effective_sample_size =
@@ -41,7 +40,15 @@ SessionSample::Camera sampleOf(const CameraSnapshot& camera, int markers) {
   return sample;
 }
 
-SessionSample sampleOf(const EngineSnapshot& tick) {
+bool isCovered(const EngineSnapshot& tick, int camera, const std::vector<Occlusion>& occlusions) {
+  const CameraSnapshot& state = tick.cameras[static_cast<std::size_t>(camera)];
+  return state.hidden || state.boards > 0 ||
+         std::any_of(occlusions.begin(), occlusions.end(), [&](const Occlusion& occlusion) {
+           return occlusion.covers(cameraId(camera), toSeconds(tick.time));
+         });
+}
+
+SessionSample sampleOf(const EngineSnapshot& tick, const std::vector<Occlusion>& occlusions) {
   const Eigen::Vector3d pad(0.0, 0.0, tick.pad_height);
   const RigidTransform& tracked = tick.tracked.state.world_from_body;
   const RigidTransform& truth = tick.truth.world_from_body;
@@ -62,8 +69,10 @@ SessionSample sampleOf(const EngineSnapshot& tick) {
   sample.sticks = tick.sticks;
   sample.server_p99_ms = 1e-6 * static_cast<double>(tick.server_p99);
   sample.command_p99_ms = 1e-6 * static_cast<double>(tick.frame_to_command_p99);
-  for (int i = 0; i < tick.camera_count; ++i)
+  for (int i = 0; i < tick.camera_count; ++i) {
     sample.cameras.push_back(sampleOf(tick.cameras[static_cast<std::size_t>(i)], tick.marker_count));
+    sample.cameras.back().covered = isCovered(tick, i, occlusions);
+  }
   return sample;
 }
 
@@ -89,7 +98,8 @@ SessionSummary summarize(McapReader& session, const ExportProgress& progress, co
     if (rotorsTurn(tick.phase) && !(summary.rotors_on_s <= toSeconds(tick.time)))
       summary.rotors_on_s = toSeconds(tick.time);
     summary.score.add(tick);
-    if (summary.ticks % stride == 0) summary.samples.push_back(sampleOf(tick));
+    if (summary.ticks % stride == 0)
+      summary.samples.push_back(sampleOf(tick, summary.settings.rig.simulation.occlusions));
     if (++summary.ticks % 600 == 0) progress(std::min(1.0, toSeconds(tick.time - begin) / length_s));
   });
   if (summary.ticks == 0)

@@ -14,6 +14,8 @@ struct Occlusion {
   CameraId camera;
   double from_s = 0.0;
   double to_s = 0.0;
+
+  bool covers(CameraId which, double time_s) const { return which == camera && time_s >= from_s && time_s < to_s; }
 };
 
 /// A knock: at `at_s` the camera turns about a random axis and shifts in a random direction.

@@ -9,8 +9,6 @@
 namespace helical {
 namespace {
 
-constexpr double kHighestVolts = 10.0;
-
 void demandNone(TransmitterTrouble trouble) {
   if (trouble != TransmitterTrouble::kNone)
     throw Error(ErrorKind::kDevice, toString(trouble), {}, cureOf(trouble));

@@ -14,6 +14,9 @@ namespace helical {
 /// Whether a transmitter is an analogue output, whose channels have to be measured; a radio's have units of their own.
 bool takesVoltages(const TransmitterOptions& transmitter);
 
+/// Of an analogue output; the lowest is as far below 0, for a throttle 0.
+inline constexpr double kHighestVolts = 10.0;
+
 /// What the ends of an axis look like, from its lower one to its upper one.
 struct StickEnds {
   const char* low;

@@ -117,22 +117,13 @@ Figure featuresFigure(const SessionSummary& session) {
   return {QStringLiteral("fig08"), QStringLiteral("The label of the selected image features"), {}, {raster}};
 }
 
-bool isCovered(const SessionSummary& session, const SessionSample& sample, std::size_t camera) {
-  const auto& occlusions = session.settings.rig.simulation.occlusions;
-  return sample.cameras[camera].covered ||
-         std::any_of(occlusions.begin(), occlusions.end(), [&](const Occlusion& occlusion) {
-           return occlusion.camera == cameraId(static_cast<int>(camera)) && sample.time_s >= occlusion.from_s &&
-                  sample.time_s < occlusion.to_s;
-         });
-}
-
 /// The longest time without interruption for which a camera was covered.
 std::optional<ShadedSpan> longestCover(const SessionSummary& session, std::size_t camera) {
   std::optional<ShadedSpan> longest;
   double since_s = 0.0;
   bool was_covered = false;
   for (const SessionSample& sample : session.samples) {
-    const bool covered = isCovered(session, sample, camera);
+    const bool covered = sample.cameras[camera].covered;
     if (covered && !was_covered) since_s = sample.time_s;
     was_covered = covered;
     if (covered && (!longest || sample.time_s - since_s > longest->to_s - longest->from_s))

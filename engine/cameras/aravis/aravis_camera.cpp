@@ -85,7 +85,6 @@ std::unique_ptr<AravisSession> AravisCamera::open() {
                                                    arrived_.release();
                                                    return true;
                                                  });
-  exposure_us_ = session->light().exposure_us;
   link_->tell(session->light());
   log(LogLevel::kInfo, "aravis:" + device_ + ": " + session->description() + " streams");
   return session;
@@ -276,7 +275,7 @@ void AravisCamera::follow(const ReceivedFrame& received) {
 }
 
 TimeNs AravisCamera::exposureOf(const ReceivedFrame& received) {
-  const double half_us = 0.5 * exposure_us_.load(std::memory_order_relaxed);
+  const double half_us = 0.5 * link_->exposure_us.load(std::memory_order_relaxed);
   const double to_middle_us = options_.stamped_at == StampedAt::kStart  ? half_us
                               : options_.stamped_at == StampedAt::kEnd ? -half_us
                                                                        : 0.0;

@@ -71,7 +71,6 @@ class AravisCamera final : public CameraSource {
   SpscQueue<ReceivedFrame, 8> frames_;
   SpscQueue<NumberedSample, 16> samples_;
   std::counting_semaphore<> arrived_{0};
-  std::atomic<double> exposure_us_{0.0};
 
   ReceivedFrame held_;  ///< polling thread, as the next six
   ClockMapping mapping_;

@@ -9,6 +9,7 @@
 #include "app/experiment.h"
 #include "app/progress.h"
 #include "engine/base/error.h"
+#include "engine/calibration/calibrator_factory.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
 
@@ -26,6 +27,7 @@ struct Arguments {
   int runs = 200;
   std::uint64_t seed = 1;
   std::vector<std::string> only;
+  std::vector<std::string> calibrators;  ///< of conditions that several are compared in; empty: all
   bool json = false;
 };
 
@@ -54,7 +56,7 @@ class Study {
   CalibrationReport run() {
     countParts();
     for (const auto& condition : calibrationConditions())
-      if (wanted(condition.name))
+      if (wanted(condition))
         report_.conditions.push_back(studyCalibration(
             condition, arguments_.runs, arguments_.seed,
             part(condition.name + ", " + condition.calibrator, arguments_.runs)));
@@ -86,8 +88,14 @@ class Study {
            std::find(arguments_.only.begin(), arguments_.only.end(), name) != arguments_.only.end();
   }
 
+  bool wanted(const CalibrationCondition& condition) const {
+    const auto& names = arguments_.calibrators;
+    return wanted(condition.name) &&
+           (names.empty() || std::find(names.begin(), names.end(), condition.calibrator) != names.end());
+  }
+
   void countParts() {
-    for (const auto& condition : calibrationConditions()) parts_ += wanted(condition.name);
+    for (const auto& condition : calibrationConditions()) parts_ += wanted(condition);
     for (const auto& condition : knockConditions()) parts_ += wanted(condition.name);
     for (const auto& condition : quietConditions()) parts_ += wanted(condition.name);
     parts_ += wanted(kSixteen) + wanted(kMemory);
@@ -129,6 +137,9 @@ void addCalibrationExperiment(CLI::App& experiments, int& exit_code) {
       ->capture_default_str();
   command->add_option("--only", arguments->only, "These conditions only, by name")
       ->check(CLI::IsMember(conditionNames()))
+      ->delimiter(',');
+  command->add_option("--calibrator", arguments->calibrators, "These methods only, where several are compared")
+      ->check(CLI::IsMember(std::vector<std::string>(calibratorNames().begin(), calibratorNames().end())))
       ->delimiter(',');
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->callback([arguments, &exit_code] { exit_code = runExperiment(*arguments); });

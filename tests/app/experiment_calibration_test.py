@@ -28,6 +28,13 @@ class Calibration(unittest.TestCase):
         self.assertEqual(knock["wrong_alarms"], 0)
         self.assertIsNone(knock["rmse_over_crlb"])
 
+    def test_methods_that_are_asked_for(self):
+        code, report = run_json("experiment", "calibration", "--runs", 2, "--only", "asymmetric",
+                                "--calibrator", "ekf,joint")
+        self.assertEqual(code, 0)
+        self.assertEqual({row["calibrator"] for row in report["conditions"]}, {"joint", "ekf"})
+        self.assertEqual({row["name"] for row in report["conditions"]}, {"asymmetric"})
+
     def test_unknown_conditions_are_refused(self):
         done = run("experiment", "calibration", "--only", "weather")
         self.assertEqual(done.returncode, 2)

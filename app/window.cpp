@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QStandardPaths>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <future>
@@ -53,6 +54,10 @@ std::unique_ptr<Recorder> startRecorder(const WindowFlight& flight) {
   settings.plan = flight.plan;
   settings.realtime = true;
   settings.images = flight.images;
+  // What nobody asked for at the start can be asked for in flight.
+  const auto off = [](const ImageRecording& images) { return images.quality == ImageQuality::kOff; };
+  if (std::all_of(settings.images.begin(), settings.images.end(), off))
+    settings.images.assign(flight.rig.cameras.size(), {ImageQuality::kJpeg, 0.0, false});
   std::filesystem::path file = sessionFolder();
   try {
     file = newSessionFile(file, flight.rig.path, std::chrono::system_clock::now());
@@ -75,8 +80,9 @@ struct StartingFlight {
 };
 
 /// Until the window is closed; true if it is to come back with the transmitter's channels calibrated.
-bool runFlight(StartingFlight& starting, const RigConfig& rig, const WindowOptions& options,
+bool runFlight(StartingFlight& starting, const RigConfig& rig, WindowOptions options,
                const std::vector<std::filesystem::path>& cut_off) {
+  options.record = starting.recorder.get();
   MainWindow window(rig, options);
   bool calibrate = false;
   QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);

@@ -25,21 +25,12 @@ QLabel* makeLabel(const QString& text, const QFont& font, const QColor& color, Q
   auto* label = new QLabel(text);
   label->setFont(font);
   label->setAlignment(alignment | Qt::AlignVCenter);
-  QPalette palette = label->palette();
-  palette.setColor(QPalette::WindowText, color);
-  label->setPalette(palette);
+  theme::setTextColor(*label, color);
   return label;
 }
 
 QLabel* makeValue(const QColor& color) {
   return makeLabel(kNoValue, theme::monoFont(8.8, QFont::Medium), color, Qt::AlignRight);
-}
-
-void setColor(QLabel& label, const QColor& color) {
-  QPalette palette = label.palette();
-  if (palette.color(QPalette::WindowText) == color) return;
-  palette.setColor(QPalette::WindowText, color);
-  label.setPalette(palette);
 }
 
 QString magnitude(double value) {
@@ -82,7 +73,8 @@ CalibrationRow::CalibrationRow(const CameraConfig& config, int camera, QWidget* 
     position_[i]->setAccessibleName(tr("Position, %1").arg(heads[i]));
     orientation_[i]->setAccessibleName(tr("Orientation, %1").arg(heads[i]));
   }
-  const auto add = [&](int line, const QString& text, const std::array<QLabel*, 3>& values, const QString& unit) {
+  const auto add = [&](int line, const QString& text, const std::array<QLabel*, 3>& values,
+                       const QString& unit) {
     grid->addWidget(makeLabel(text, theme::uiFont(8.6), theme::kMuted, Qt::AlignLeft), line, 0);
     for (std::size_t i = 0; i < values.size(); ++i) grid->addWidget(values[i], line, static_cast<int>(i) + 1);
     grid->addWidget(makeLabel(unit, theme::uiFont(7.8), theme::kFaint, Qt::AlignLeft), line, 4);
@@ -117,8 +109,9 @@ QWidget* CalibrationRow::buildButtons(const CameraConfig& config, const QString&
 }
 
 void CalibrationRow::makeButtons(const QString& name) {
-  accept_ = wideButton(tr("Accept"), tr("Accept what %1 has learnt").arg(name),
-                       tr("%1 helps the pose from now on, with what it knows, before the rule lets it").arg(name));
+  accept_ =
+      wideButton(tr("Accept"), tr("Accept what %1 has learnt").arg(name),
+                 tr("%1 helps the pose from now on, with what it knows, before the rule lets it").arg(name));
   freeze_ = wideButton(tr("Freeze"), {}, {});
   restart_ = wideButton(tr("Restart"), tr("Restart the calibration of %1").arg(name),
                         tr("Forget what %1 has learnt and begin again from its first guess").arg(name));
@@ -134,7 +127,8 @@ void CalibrationRow::connectButtons() {
   connect(accept_, &QToolButton::clicked, this,
           [this] { Q_EMIT ordered(cameraId(camera_), CalibrationOrderKind::kAccept); });
   connect(freeze_, &QToolButton::clicked, this, [this] {
-    Q_EMIT ordered(cameraId(camera_), frozen_ ? CalibrationOrderKind::kResume : CalibrationOrderKind::kFreeze);
+    Q_EMIT ordered(cameraId(camera_),
+                   frozen_ ? CalibrationOrderKind::kResume : CalibrationOrderKind::kFreeze);
   });
   connect(restart_, &QToolButton::clicked, this, [this] {
     maps_->clear();
@@ -154,7 +148,7 @@ void CalibrationRow::show(const EngineSnapshot& snapshot) {
   const CameraSnapshot& state = snapshot.cameras[static_cast<std::size_t>(camera_)];
   const StatusWord word = calibrationWord(snapshot, camera_);
   state_->setText(state.frozen ? tr("%1, frozen").arg(word.text) : word.text);
-  setColor(*state_, word.color);
+  theme::setTextColor(*state_, word.color);
   showNumbers(state);
   showLabelling(state.labellings);
   showButtons(state);
@@ -178,18 +172,19 @@ void CalibrationRow::showNumbers(const CameraSnapshot& state) {
   }
   // Methods without particles have none to count.
   for (QLabel* label : {effective_name_, effective_}) label->setVisible(hypotheses_ > 0);
-  effective_->setText(state.effective_sample_size > 0.0 ? QStringLiteral("%1/%2")
-                                                              .arg(plainNumber(state.effective_sample_size, 0))
-                                                              .arg(hypotheses_)
-                                                        : kNoValue);
+  effective_->setText(
+      state.effective_sample_size > 0.0
+          ? QStringLiteral("%1/%2").arg(plainNumber(state.effective_sample_size, 0)).arg(hypotheses_)
+          : kNoValue);
 }
 
 void CalibrationRow::showLabelling(const TriedLabellings& tried) {
   for (QLabel* label : {labelling_name_, labelling_}) label->setVisible(tried.count > 0);
   QString taken;
   QStringList all{tr("The balls in the image, from left to right, as it takes them."),
-                  tried.by_misfit ? tr("Labellings weighed up, with their misfit in standard deviations:")
-                                  : tr("Labellings weighed up, with their distance De from the first guess:")};
+                  tried.by_misfit
+                      ? tr("Labellings weighed up, with their misfit in standard deviations:")
+                      : tr("Labellings weighed up, with their distance De from the first guess:")};
   for (int i = 0; i < tried.count; ++i) {
     const TriedLabelling& labelling = tried.all[static_cast<std::size_t>(i)];
     QStringList balls;

@@ -1,12 +1,15 @@
 #include "ui/heat_maps.h"
 
+#include <QContextMenuEvent>
 #include <QPainter>
+#include <QTextStream>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
 #include "ui/format.h"
+#include "ui/plot_saving.h"
 #include "ui/theme.h"
 
 namespace helical {
@@ -44,14 +47,44 @@ void paintMap(QPainter& painter, const QRectF& area, const std::function<double(
 }  // namespace
 
 HeatMaps::HeatMaps(const QString& camera_name, QSize sensor, QWidget* parent)
-    : QWidget(parent), heat_(sensor) {
+    : QWidget(parent), camera_name_(camera_name), sensor_(sensor), heat_(sensor) {
   setAccessibleName(tr("Coverage and residual maps of %1").arg(camera_name));
-  setToolTip(tr("Left: where in the image used markers were seen, right: how far off they were there"));
+  setToolTip(
+      tr("Left: where in the image used markers were seen, right: how far off they were there. Right click: "
+         "save"));
 }
 
 void HeatMaps::clear() {
   heat_.clear();
   update();
+}
+
+void HeatMaps::contextMenuEvent(QContextMenuEvent* event) {
+  QString name = camera_name_;
+  name.replace(QLatin1Char(' '), QLatin1Char('-'));
+  offerToSave(this, event->globalPos(), QStringLiteral("coverage-%1").arg(name),
+              [this](const QString& path) { return save(path); });
+}
+
+bool HeatMaps::save(const QString& path) {
+  if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) return saveText(path, table());
+  return savePicture(*this, path);
+}
+
+QString HeatMaps::table() const {
+  QString text = QStringLiteral("u_px,v_px,markers,residual_px\n");
+  QTextStream out(&text, QIODevice::Append);
+  for (int row = 0; row < ImageHeat::kRows; ++row)
+    for (int column = 0; column < ImageHeat::kColumns; ++column) {
+      // The middle of the part; pixel centres are whole numbers.
+      out << (column + 0.5) * sensor_.width() / ImageHeat::kColumns - 0.5 << ','
+          << (row + 0.5) * sensor_.height() / ImageHeat::kRows - 0.5 << ',' << heat_.count(column, row)
+          << ',';
+      if (const double residual = heat_.residual(column, row); std::isfinite(residual)) out << residual;
+      out << '\n';
+    }
+  out.flush();
+  return text;
 }
 
 void HeatMaps::paintEvent(QPaintEvent*) {

@@ -40,6 +40,7 @@ KeySheet::KeySheet(QWidget* parent) : QDialog(parent) {
   heading(tr("Window"));
   add(QStringLiteral("1 \u2026 9"), tr("hide or show a camera"));
   add(tr("Space"), tr("hold the plots still, or follow again"));
+  add(tr("Ctrl+R"), tr("record the cameras' pictures, or no more"));
   add(QStringLiteral("F1"), tr("this sheet"));
   add(tr("Ctrl+F1"), tr("the manual"));
   add(QStringLiteral("F11"), tr("full screen"));

@@ -14,12 +14,27 @@
 
 namespace helical {
 
+namespace {
+
+bool haveImages(const RigConfig& rig) {
+  return rig.simulation.images || rig.cameras.empty() || rig.cameras.front().source != "sim";
+}
+
+}  // namespace
+
 MainMenus::MainMenus(const RigConfig& rig, const Panels& panels, QMenuBar& bar, QMainWindow& window)
     : QObject(&window), rig_(rig), panels_(panels), window_(window) {
   QMenu* file = bar.addMenu(tr("F&ile"));
   file->addAction(tr("Open session..."), QKeySequence::Open, this, &MainMenus::openRequested);
-  file->addAction(tr("Export session..."), QKeySequence(Qt::CTRL | Qt::Key_E), this, &MainMenus::exportRequested);
+  file->addAction(tr("Export session..."), QKeySequence(Qt::CTRL | Qt::Key_E), this,
+                  &MainMenus::exportRequested);
   file->addAction(tr("Compare sessions..."), this, &MainMenus::compareRequested);
+  file->addSeparator();
+  pictures_ = file->addAction(tr("Record the cameras' pictures"));
+  pictures_->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
+  pictures_->setCheckable(true);
+  pictures_->setEnabled(false);
+  connect(pictures_, &QAction::triggered, this, &MainMenus::picturesRequested);
   buildFlight(*bar.addMenu(tr("&Flight")));
   buildCameras(*bar.addMenu(tr("&Cameras")));
   buildDisturb(*bar.addMenu(tr("&Disturb")));
@@ -56,8 +71,7 @@ void MainMenus::buildCameras(QMenu& menu) {
             [this, i](bool hidden) { Q_EMIT hideRequested(cameraId(i), hidden); });
     hide_.push_back(action);
   }
-  const bool images = rig_.simulation.images || rig_.cameras.empty() || rig_.cameras.front().source != "sim";
-  if (!images) return;
+  if (!haveImages(rig_)) return;
   menu.addSeparator();
   background_ = menu.addAction(tr("Take a new background"), this, &MainMenus::backgroundRequested);
   menu.addAction(tr("Colour of the markers\u2026"), this, &MainMenus::colourRequested);
@@ -80,7 +94,7 @@ void MainMenus::buildDisturb(QMenu& menu) {
 void MainMenus::buildView(QMenu& menu) {
   menu.addActions(panels_.viewpoints);
   menu.addSeparator();
-  for (QDockWidget* dock : panels_.docks) menu.addAction(dock->toggleViewAction());
+  buildPanels(menu);
   menu.addSeparator();
   const auto add = [&](const QString& text, DockLayouts::Layout layout) {
     menu.addAction(text, this, [this, layout] { Q_EMIT layoutRequested(layout); });
@@ -116,6 +130,20 @@ void MainMenus::buildView(QMenu& menu) {
   });
 }
 
+void MainMenus::buildPanels(QMenu& menu) {
+  for (QDockWidget* dock : panels_.docks) menu.addAction(dock->toggleViewAction());
+  QMenu* windows = menu.addMenu(tr("Panel in a window of its own"));
+  for (QDockWidget* dock : panels_.docks) {
+    QAction* action = windows->addAction(dock->windowTitle());
+    action->setCheckable(true);
+    connect(action, &QAction::triggered, dock, [dock](bool own) {
+      dock->show();
+      dock->setFloating(own);
+    });
+    connect(dock, &QDockWidget::topLevelChanged, action, &QAction::setChecked);
+  }
+}
+
 void MainMenus::setLight(bool on) {
   light_->setChecked(on);
 }
@@ -127,6 +155,11 @@ void MainMenus::show(const EngineSnapshot& snapshot, bool can_take_off, bool can
   if (background_ != nullptr) background_->setEnabled(standing);
   if (channels_ != nullptr) channels_->setEnabled(standing && !snapshot.armed);
   for (std::size_t i = 0; i < hide_.size(); ++i) hide_[i]->setChecked(snapshot.cameras[i].hidden);
+}
+
+void MainMenus::showRecord(bool recorded, bool pictures) {
+  pictures_->setEnabled(recorded && haveImages(rig_));
+  pictures_->setChecked(pictures);
 }
 
 }  // namespace helical

@@ -38,11 +38,14 @@ class MainMenus : public QObject {
 
   void setLight(bool on);
   void show(const EngineSnapshot& snapshot, bool can_take_off, bool can_land);
+  /// Whether the flight is recorded, and pictures with it.
+  void showRecord(bool recorded, bool pictures);
 
  Q_SIGNALS:
   void openRequested();
   void exportRequested();
   void compareRequested();
+  void picturesRequested(bool on);
   void takeOffRequested();
   void landRequested();
   void stopRequested();
@@ -63,10 +66,12 @@ class MainMenus : public QObject {
   void buildCameras(QMenu& menu);
   void buildDisturb(QMenu& menu);
   void buildView(QMenu& menu);
+  void buildPanels(QMenu& menu);
 
   const RigConfig& rig_;
   Panels panels_;
   QMainWindow& window_;
+  QAction* pictures_ = nullptr;
   QAction* take_off_ = nullptr;
   QAction* land_ = nullptr;
   QAction* channels_ = nullptr;  ///< null: the transmitter has none

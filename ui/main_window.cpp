@@ -15,6 +15,7 @@
 
 #include "engine/base/error.h"
 #include "engine/config/resource_files.h"
+#include "engine/session/recorder.h"
 #include "ui/alarm_bar.h"
 #include "ui/attitude_indicator.h"
 #include "ui/button_keys.h"
@@ -34,6 +35,7 @@
 #include "ui/plan_editor.h"
 #include "ui/playback_bar.h"
 #include "ui/plot_deck.h"
+#include "ui/record_label.h"
 #include "ui/scene_view.h"
 #include "ui/status_words.h"
 #include "ui/theme.h"
@@ -116,6 +118,7 @@ void MainWindow::attach(FlightPlayback& playback) {
   playback_bar_ = new PlaybackBar(playback);
   statusBar()->insertWidget(0, playback_bar_, 1);
   newest_event_->hide();
+  record_->hide();
   session_file_ = QString::fromStdString(playback.file().string());
   // Nobody flies here.
   plan_->setEnabled(false);
@@ -268,6 +271,7 @@ void MainWindow::buildMenus() {
   connect(menus_, &MainMenus::openRequested, this, &MainWindow::chooseSession);
   connect(menus_, &MainMenus::exportRequested, this, &MainWindow::chooseExport);
   connect(menus_, &MainMenus::compareRequested, this, &MainWindow::chooseComparison);
+  connect(menus_, &MainMenus::picturesRequested, this, &MainWindow::recordPictures);
   connect(menus_, &MainMenus::takeOffRequested, orders_, &EngineOrders::takeOff);
   connect(menus_, &MainMenus::landRequested, orders_, &EngineOrders::land);
   connect(menus_, &MainMenus::channelsRequested, this, &MainWindow::askForChannels);
@@ -290,11 +294,16 @@ void MainWindow::buildMenus() {
   });
 }
 
+void MainWindow::recordPictures(bool on) {
+  if (options_.record != nullptr) options_.record->recordImages(on);
+}
+
 void MainWindow::askForChannels() {
-  auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Channels of the transmitter"),
-                              tr("The device belongs to the flight: this window closes, and comes back when the "
-                                 "channels are calibrated or you cancel. Go on?"),
-                              QMessageBox::Yes | QMessageBox::No, this);
+  auto* box =
+      new QMessageBox(QMessageBox::NoIcon, tr("Channels of the transmitter"),
+                      tr("The device belongs to the flight: this window closes, and comes back when the "
+                         "channels are calibrated or you cancel. Go on?"),
+                      QMessageBox::Yes | QMessageBox::No, this);
   connect(box, &QMessageBox::accepted, this, [this] {
     const EngineSnapshot& now = view_->snapshot();
     if (!now.armed && !inFlight(now.phase)) Q_EMIT channelsRequested();
@@ -355,7 +364,9 @@ void MainWindow::buildStatusBar() {
   load_->setToolTip(
       tr("Refreshes of this window, time to draw the 3D scene, engine ticks the window was too slow for"));
   statusBar()->setSizeGripEnabled(false);
+  record_ = new RecordLabel;
   statusBar()->addWidget(newest_event_, 1);
+  statusBar()->addPermanentWidget(record_);
   statusBar()->addPermanentWidget(load_);
 }
 

@@ -29,6 +29,8 @@ class PanelTitle;
 class PlanEditor;
 class PlaybackBar;
 class PlotDeck;
+class RecordLabel;
+class Recorder;
 class SceneView;
 class TopBar;
 class TuningEditor;
@@ -37,6 +39,7 @@ class Viewpoints;
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
   QString session_folder;      ///< where File > Open session begins
+  Recorder* record = nullptr;  ///< of this flight, if there is one; outlives the window
   QString layout_file;         ///< where the panels' places are kept from one session to the next; empty: not
 };
 
@@ -89,8 +92,8 @@ class MainWindow : public QMainWindow {
   void exportChosen(const QString& file);
   /// File > Compare sessions: with the one that is shown, if there is one.
   void comparisonChosen(const QStringList& files);
-  /// Flight > Channels of the transmitter, on the ground: whoever owns the engine ends this flight first, because the
-  /// device is its.
+  /// Flight > Channels of the transmitter, on the ground: whoever owns the engine ends this flight first,
+  /// because the device is its.
   void channelsRequested();
   void firstImage(qint64 since_process_start_ns);
 
@@ -116,6 +119,7 @@ class MainWindow : public QMainWindow {
   void chooseExport();
   void chooseComparison();
   void askForChannels();
+  void recordPictures(bool on);
   void tick();
   void fetchTicks();
   void fetchPictures();
@@ -157,6 +161,7 @@ class MainWindow : public QMainWindow {
   PanelTitle* scene_title_;
   Viewpoints* viewpoints_;
   QLabel* newest_event_;
+  RecordLabel* record_;
   QLabel* load_;
 };
 

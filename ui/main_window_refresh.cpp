@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/base/log.h"
+#include "engine/session/recorder.h"
 #include "ui/alarm_bar.h"
 #include "ui/attitude_indicator.h"
 #include "ui/calibration_panel.h"
@@ -23,6 +24,7 @@
 #include "ui/panel_title.h"
 #include "ui/playback_bar.h"
 #include "ui/plot_deck.h"
+#include "ui/record_label.h"
 #include "ui/scene_view.h"
 #include "ui/startup_time.h"
 #include "ui/top_bar.h"
@@ -103,6 +105,9 @@ void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
     top_bar_->landButton()->setEnabled(false);
   }
   menus_->show(snapshot, top_bar_->takeOffButton()->isEnabled(), top_bar_->landButton()->isEnabled());
+  const bool pictures = options_.record != nullptr && options_.record->recordsImages();
+  menus_->showRecord(snapshot.devices.record.recording && options_.record != nullptr, pictures);
+  record_->showRecord(snapshot.devices.record, pictures);
   flight_->show(snapshot);
   attitude_->show(snapshot);
   calibration_->show(snapshot);

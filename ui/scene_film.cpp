@@ -11,6 +11,7 @@
 #include "ui/orbit_view.h"
 #include "ui/scene_extent.h"
 #include "ui/scene_frame_builder.h"
+#include "ui/scene_labels.h"
 #include "ui/scene_thread.h"
 #include "ui/theme.h"
 
@@ -87,7 +88,8 @@ void SceneFilm::add(const RenderedScene& scene) {
   } catch (const Error& error) {
     return end(QString::fromUtf8(error.what()));
   }
-  Q_EMIT progressed(static_cast<double>(now_ - begin_) / static_cast<double>(std::max<TimeNs>(1, end_ - begin_)));
+  Q_EMIT progressed(static_cast<double>(now_ - begin_) /
+                    static_cast<double>(std::max<TimeNs>(1, end_ - begin_)));
   now_ += fromSeconds(1.0 / FilmWriter::kPicturesPerSecond);
   QTimer::singleShot(0, this, &SceneFilm::step);
 }
@@ -95,12 +97,7 @@ void SceneFilm::add(const RenderedScene& scene) {
 void SceneFilm::paintWords(QImage& picture, const RenderedScene& scene) const {
   QPainter painter(&picture);
   painter.setRenderHint(QPainter::TextAntialiasing);
-  painter.setFont(theme::capsFont(7.6));
-  for (const SceneLabel& label : scene.labels) {
-    painter.setPen(theme::on_dark::cameraColor(label.camera));
-    painter.drawText(label.position,
-                     QString::fromStdString(playback_->rig().cameras[static_cast<std::size_t>(label.camera)].name));
-  }
+  paintSceneLabels(painter, scene.labels, playback_->rig());
   painter.setPen(theme::on_dark::kText);
   painter.setFont(theme::monoFont(9.0));
   painter.drawText(QPointF(14.0, kPicture.height() - 14.0),

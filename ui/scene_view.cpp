@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/scene_extent.h"
+#include "ui/scene_labels.h"
 #include "ui/scene_thread.h"
 #include "ui/theme.h"
 
@@ -111,20 +112,8 @@ void SceneView::paintEvent(QPaintEvent*) {
   }
   painter.drawImage(rect(), shown_.image);
   painter.setRenderHint(QPainter::Antialiasing);
-  paintLabels(painter);
+  paintSceneLabels(painter, shown_.labels, rig_);
   paintUnknownCameras(painter);
-}
-
-void SceneView::paintLabels(QPainter& painter) const {
-  painter.setFont(theme::capsFont(7.6));
-  for (const SceneLabel& label : shown_.labels) {
-    const auto camera = static_cast<std::size_t>(label.camera);
-    QColor color = theme::on_dark::cameraColor(label.camera);
-    if (!label.in_use) color.setAlpha(110);
-    painter.setPen(color);
-    const QRectF box(label.position - QPointF(90, 9), QSizeF(180, 18));
-    painter.drawText(box, Qt::AlignCenter, QString::fromStdString(rig_.cameras[camera].name));
-  }
 }
 
 void SceneView::paintUnknownCameras(QPainter& painter) const {

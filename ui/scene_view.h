@@ -57,7 +57,6 @@ class SceneView : public QWidget {
   void setEye(SceneFrame& frame);
   void fitField(const SceneFrame& frame);
   void dragWaypoint(const QMouseEvent& event);
-  void paintLabels(QPainter& painter) const;
   void paintUnknownCameras(QPainter& painter) const;
 
   const RigConfig& rig_;

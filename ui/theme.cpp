@@ -263,6 +263,13 @@ void apply(QApplication& application, Theme theme) {
   }
 }
 
+void setTextColor(QWidget& widget, const QColor& color) {
+  QPalette palette = widget.palette();
+  if (widget.testAttribute(Qt::WA_SetPalette) && palette.color(QPalette::WindowText) == color) return;
+  palette.setColor(QPalette::WindowText, color);
+  widget.setPalette(palette);
+}
+
 Theme theme() {
   return current;
 }

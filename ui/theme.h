@@ -4,6 +4,7 @@
 #include <QFont>
 
 class QApplication;
+class QWidget;
 
 namespace helical::theme {
 
@@ -48,6 +49,7 @@ enum class Theme { kDark, kLight };
 /// there already take the new ones at their next painting.
 void apply(QApplication& application, Theme theme = Theme::kDark);
 Theme theme();
+void setTextColor(QWidget& widget, const QColor& color);
 /// A colour of the theme before, as it is in this one; any other colour as it is. For colours that somebody
 /// keeps: call it upon QEvent::PaletteChange.
 QColor translated(const QColor& color);

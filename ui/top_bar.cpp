@@ -23,9 +23,7 @@ constexpr int kButtonHeight = 30;
 QLabel* makeLabel(const QString& text, const QFont& font, const QColor& color) {
   auto* label = new QLabel(text);
   label->setFont(font);
-  QPalette palette = label->palette();
-  palette.setColor(QPalette::WindowText, color);
-  label->setPalette(palette);
+  theme::setTextColor(*label, color);
   return label;
 }
 
@@ -52,8 +50,8 @@ QPushButton* makeButton(const QString& text, const QString& tip, const char* obj
   return dressed(new QPushButton(text), tip, object_name);
 }
 
-/// Qt would hand the focus of a button that goes off to the next one that is on, and the next Space would land, or
-/// stop the rotors.
+/// Qt would hand the focus of a button that goes off to the next one that is on, and the next Space would
+/// land, or stop the rotors.
 void enable(QPushButton& button, QPushButton& harmless, bool on) {
   if (!on && button.hasFocus()) harmless.setFocus(Qt::OtherFocusReason);
   button.setEnabled(on);
@@ -120,7 +118,8 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
   transmitter_->setToolTip(tr("The transmitter, from what it last said"));
   pilot_ = new StatusChip(tr("Flies"), longestPilotWord());
   pilot_->setToolTip(
-      tr("Whose sticks the helicopter obeys: Helical's, or those of the pilot, who takes over by the trainer switch"));
+      tr("Whose sticks the helicopter obeys: Helical's, or those of the pilot, who takes over by the trainer "
+         "switch"));
   time_ = new StatusChip(tr("Flight"), QStringLiteral("00:00.0"));
   time_->setToolTip(tr("Since the rotors started"));
   buildButtons();
@@ -138,9 +137,9 @@ TopBar::TopBar(const RigConfig& rig, QWidget* parent) : QWidget(parent), menu_ba
   layout->addWidget(mode_);
   layout->addSpacing(6);
   layout->addWidget(readiness_);
-  for (QWidget* widget : {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_),
-                          static_cast<QWidget*>(transmitter_), static_cast<QWidget*>(pilot_),
-                          static_cast<QWidget*>(time_)})
+  for (QWidget* widget :
+       {static_cast<QWidget*>(cameras_), static_cast<QWidget*>(engine_), static_cast<QWidget*>(transmitter_),
+        static_cast<QWidget*>(pilot_), static_cast<QWidget*>(time_)})
     layout->addWidget(widget);
   layout->addSpacing(6);
   for (QWidget* widget : std::initializer_list<QWidget*>{arm_, take_off_, hold_, land_, stop_})

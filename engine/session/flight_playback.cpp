@@ -15,6 +15,8 @@ constexpr TimeNs kHistory = 30 * kNanosecondsPerSecond;
 constexpr TimeNs kRunUp = 1300 * kNanosecondsPerMillisecond;
 constexpr TimeNs kShortJump = 2 * kNanosecondsPerSecond;
 constexpr std::size_t kMostTicks = 4096;
+// A camera that delivers for longer without an image in the file: they were not recorded then.
+constexpr TimeNs kLongestWithoutImage = 2 * kNanosecondsPerSecond;
 
 }  // namespace
 
@@ -134,12 +136,18 @@ bool FlightPlayback::pollPicture(CameraId camera) {
   Picture& now = pictures_[indexOf(camera)];
   CameraPicture& shown = now.picture;
   const CameraModel& model = settings_.rig.cameras[indexOf(camera)].model;
+  const TimeNs shown_image = now.image;
+  now.image = -1;
   if (images_.hasImages(camera)) {
-    const TimeNs image = images_.load(camera, position_, now.image, shown);
-    if (image == now.image) return false;
-    now.image = image;
+    // A camera that was lost shows its last image; one whose images were not recorded for a while does not.
+    const TimeNs oldest = std::min(now.observation.exposure, position_) - kLongestWithoutImage;
+    now.image = images_.load(camera, oldest, position_, shown_image, shown);
+  }
+  const bool fresh = std::exchange(now.fresh, false);
+  if (now.image >= 0) {
+    if (now.image == shown_image) return false;
   } else {
-    if (!std::exchange(now.fresh, false)) return false;
+    if (!fresh && shown_image < 0) return false;
     drawDiscs(now.observation, model.width(), model.height(), shown);
   }
   shown.observation = now.observation;

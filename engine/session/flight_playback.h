@@ -18,7 +18,7 @@ namespace helical {
 
 /// A recorded flight to look at as at a live one: plays at 0.1 to 10 times its pace, pauses, steps, seeks,
 /// goes round between two times. Opens and seeks by the file's index, however long it is. Cameras whose
-/// images were not recorded show discs where markers were seen. One thread.
+/// images were not recorded, at all or just then, show discs where markers were seen. One thread.
 class FlightPlayback final : public FlightView {
  public:
   static constexpr double kSlowest = 0.1, kFastest = 10.0;

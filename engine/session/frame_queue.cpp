@@ -7,19 +7,29 @@ namespace helical {
 namespace {
 
 constexpr std::size_t kMostBytes = 64u << 20;
-constexpr std::size_t kFewestSlots = 4, kMostSlots = 60;  // a second, where a disk or a busy machine takes its time
+constexpr std::size_t kFewestSlots = 4,
+                      kMostSlots = 60;  // a second, where a disk or a busy machine takes its time
 
 }  // namespace
 
-FrameQueue::FrameQueue(const ImageRecording& recording, int width, int height) : recording_(recording) {
-  if (recording.quality == ImageQuality::kOff) return;
-  const std::size_t bytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  slots_.resize(std::clamp(kMostBytes / std::max<std::size_t>(1, bytes), kFewestSlots, kMostSlots));
-  for (RecordedFrame& slot : slots_) slot.pixels.resize(bytes);
+FrameQueue::FrameQueue(const ImageRecording& recording, int width, int height)
+    : recording_(recording),
+      image_bytes_(
+          std::max<std::size_t>(1, 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))) {
+  setOpen(recording.at_once);
+}
+
+void FrameQueue::setOpen(bool open) {
+  if (recording_.quality == ImageQuality::kOff) return;
+  if (open && slots_.empty()) {
+    slots_.resize(std::clamp(kMostBytes / image_bytes_, kFewestSlots, kMostSlots));
+    for (RecordedFrame& slot : slots_) slot.pixels.resize(image_bytes_);
+  }
+  open_.store(open, std::memory_order_release);
 }
 
 bool FrameQueue::wants(const Frame& frame) {
-  if (recording_.quality == ImageQuality::kOff) return false;
+  if (!open_.load(std::memory_order_acquire)) return false;
   if (recording_.rate_hz <= 0.0) return true;
   if (frame.exposure < due_) return false;
   const TimeNs period = fromSeconds(1.0 / recording_.rate_hz);

@@ -20,12 +20,14 @@ struct RecordedFrame {
 };
 
 /// One camera's images on their way to the disk: bounded, wait-free on both sides, with the memory for all of
-/// it taken at construction. One thread pushes, one takes.
+/// it taken when the first one is asked for. One thread pushes, one takes, a third one decides.
 class FrameQueue {
  public:
   /// For images up to `width` by `height`.
   FrameQueue(const ImageRecording& recording, int width, int height);
 
+  /// Deciding thread: whether frames are wanted from now on. Without effect where the quality is off.
+  void setOpen(bool open);
   /// Pushing thread: whether this frame is one to keep; asked once for every frame.
   bool wants(const Frame& frame);
   /// Pushing thread: false when there is no room.
@@ -38,7 +40,9 @@ class FrameQueue {
  private:
   ImageRecording recording_;
   TimeNs due_ = 0;
-  std::vector<RecordedFrame> slots_;
+  std::size_t image_bytes_;
+  std::atomic<bool> open_{false};
+  std::vector<RecordedFrame> slots_;  ///< deciding thread, before it is open for the first time
   alignas(64) std::atomic<std::size_t> head_{0};
   alignas(64) std::atomic<std::size_t> tail_{0};
 };

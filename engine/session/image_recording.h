@@ -14,6 +14,7 @@ enum class ImageQuality : std::uint8_t {
 struct ImageRecording {
   ImageQuality quality = ImageQuality::kOff;
   double rate_hz = 0.0;  ///< at most so many; 0: every frame
+  bool at_once = true;   ///< else from when `Recorder::recordImages` says
 };
 
 }  // namespace helical

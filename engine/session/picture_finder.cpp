@@ -51,9 +51,10 @@ PictureFinder::PictureFinder(McapReader& session, const RigConfig& rig) : sessio
   }
 }
 
-TimeNs PictureFinder::load(CameraId camera, TimeNs time, TimeNs shown, CameraPicture& picture) {
+TimeNs PictureFinder::load(CameraId camera, TimeNs oldest, TimeNs newest, TimeNs shown,
+                           CameraPicture& picture) {
   const Images& images = ofCamera(camera);
-  auto chunk = std::upper_bound(images.chunks.begin(), images.chunks.end(), time,
+  auto chunk = std::upper_bound(images.chunks.begin(), images.chunks.end(), newest,
                                 [&](TimeNs at, std::size_t c) { return at < session_.chunkStart(c); });
   TimeNs found = -1;
   std::string payload;
@@ -61,14 +62,16 @@ TimeNs PictureFinder::load(CameraId camera, TimeNs time, TimeNs shown, CameraPic
   // chunks, and one of them may have waited for the disk.
   while (chunk != images.chunks.begin()) {
     --chunk;
-    if (images.latest[static_cast<std::size_t>(chunk - images.chunks.begin())] < found) break;
-    session_.readChunk(*chunk, {{images.channel}, 0, time}, [&](const McapMessage& message) {
-      if (message.log_time < found) return;
-      found = message.log_time;
-      payload = message.payload;
-    });
+    if (images.latest[static_cast<std::size_t>(chunk - images.chunks.begin())] < std::max(oldest, found))
+      break;
+    session_.readChunk(*chunk, {{images.channel}, std::max<TimeNs>(0, oldest), newest},
+                       [&](const McapMessage& message) {
+                         if (message.log_time < found) return;
+                         found = message.log_time;
+                         payload = message.payload;
+                       });
   }
-  if (found < 0 || found == shown) return shown;
+  if (found < 0 || found == shown) return found;
   try {
     BgrImage image = images.compressed ? decodeCompressedImage(payload) : decodeImage(payload);
     picture.width = image.width;

@@ -18,9 +18,9 @@ class PictureFinder {
 
   bool hasImages(CameraId camera) const { return !ofCamera(camera).chunks.empty(); }
 
-  /// The newest image of the camera at `time` into `picture`, unless it is the one that came at `shown`.
-  /// Returns when it came; `shown` if there is none.
-  TimeNs load(CameraId camera, TimeNs time, TimeNs shown, CameraPicture& picture);
+  /// The newest image that came from `oldest` to `newest` into `picture`, unless it is the one that came at
+  /// `shown`. Returns when it came; -1 if there is none.
+  TimeNs load(CameraId camera, TimeNs oldest, TimeNs newest, TimeNs shown, CameraPicture& picture);
 
  private:
   struct Images {

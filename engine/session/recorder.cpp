@@ -45,7 +45,7 @@ Recorder::Recorder(const std::filesystem::path& file, const SessionSettings& set
   for (std::size_t i = 0; i < settings.rig.cameras.size(); ++i) {
     const CameraModel& model = settings.rig.cameras[i].model;
     const ImageRecording recording = i < settings.images.size() ? settings.images[i] : ImageRecording{};
-    has_images_ = has_images_ || recording.quality != ImageQuality::kOff;
+    if (recording.quality != ImageQuality::kOff && recording.at_once) images_ = true;
     frames_.push_back(std::make_unique<FrameQueue>(recording, model.width(), model.height()));
   }
   thread_ = std::thread([this] { run(); });
@@ -119,6 +119,11 @@ void Recorder::onFrame(const Frame& frame, const Observation&) {
   }
 }
 
+void Recorder::recordImages(bool on) {
+  for (const auto& queue : frames_) queue->setOpen(on);
+  images_.store(on, std::memory_order_relaxed);
+}
+
 void Recorder::push() {
   while (!queue_->push(next_)) {
     if (when_full_ == WhenFull::kDrop) {
@@ -172,9 +177,13 @@ bool Recorder::writeFrames() {
 }
 
 void Recorder::run() {
-  if (has_images_) stepBack();
+  bool stepped_back = false;
   TimeNs synced = clock_.now();
   for (bool last = false; !last;) {
+    if (!stepped_back && images_.load(std::memory_order_relaxed)) {
+      stepBack();
+      stepped_back = true;
+    }
     last = ended_.load(std::memory_order_acquire);  // before the queues are emptied: nothing comes after
     const bool items = writeItems(synced + kChunkTime);
     const bool busy = writeFrames() || items;

@@ -53,12 +53,17 @@ class Recorder final : public FlightTap {
   // The camera's capture thread.
   void onFrame(const Frame& frame, const Observation& observation) override;
 
+  /// From now on images of every camera to which the settings give a quality, or no more; the first time
+  /// takes their memory. Any one thread.
+  void recordImages(bool on);
+
   /// After the flight: writes what is left and closes the file.
   void finish();
 
   /// Any thread.
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
   std::uint64_t lostImages() const { return lost_images_.load(std::memory_order_relaxed); }
+  bool recordsImages() const { return images_.load(std::memory_order_relaxed) && !failed(); }
   bool failed() const { return failed_.load(std::memory_order_acquire); }
   /// Why the record is cut off; once `failed`.
   const std::string& failure() const { return failure_; }
@@ -77,7 +82,7 @@ class Recorder final : public FlightTap {
   std::unique_ptr<Queue> queue_ = std::make_unique<Queue>();
   std::vector<std::unique_ptr<FrameQueue>> frames_;  ///< by camera
   FlightItem next_;                                  ///< flight thread
-  bool has_images_ = false;
+  std::atomic<bool> images_{false};                  ///< are recorded
   std::atomic<std::uint64_t> lost_{0}, lost_images_{0};
   std::atomic<bool> failed_{false};
   std::atomic<bool> losing_{false};  ///< the newest item did not fit

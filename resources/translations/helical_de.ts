@@ -688,8 +688,8 @@
         <translation>Karten zu Abdeckung und Rest von %1</translation>
     </message>
     <message>
-        <source>Left: where in the image used markers were seen, right: how far off they were there</source>
-        <translation>Links: wo im Bild genutzte Marker gesehen wurden, rechts: wie weit sie dort daneben lagen</translation>
+        <source>Left: where in the image used markers were seen, right: how far off they were there. Right click: save</source>
+        <translation>Links: wo im Bild genutzte Marker gesehen wurden, rechts: wie weit sie dort daneben lagen. Rechtsklick: speichern</translation>
     </message>
     <message>
         <source>seen in %1 %</source>
@@ -2070,6 +2070,50 @@ m/s</translation>
     <message>
         <source>Export session...</source>
         <translation>Aufzeichnung exportieren...</translation>
+    </message>
+    <message>
+        <source>Record the cameras' pictures</source>
+        <translation>Bilder der Kameras aufzeichnen</translation>
+    </message>
+    <message>
+        <source>Panel in a window of its own</source>
+        <translation>Bereich in eigenem Fenster</translation>
+    </message>
+    <message>
+        <source>Ctrl+R</source>
+        <translation>Strg+R</translation>
+    </message>
+    <message>
+        <source>record the cameras' pictures, or no more</source>
+        <translation>Bilder der Kameras aufzeichnen, oder nicht mehr</translation>
+    </message>
+    <message>
+        <source>Record of this flight</source>
+        <translation>Aufzeichnung dieses Flugs</translation>
+    </message>
+    <message>
+        <source>Everything but pictures is recorded from the start to the folder of sessions; Ctrl+R adds the cameras' pictures</source>
+        <translation>Alles außer den Bildern wird von Anfang an in den Aufzeichnungsordner geschrieben; mit Strg+R auch die Bilder der Kameras</translation>
+    </message>
+    <message>
+        <source>not recorded</source>
+        <translation>nicht aufgezeichnet</translation>
+    </message>
+    <message>
+        <source>▲ the record is cut off</source>
+        <translation>▲ die Aufzeichnung ist abgebrochen</translation>
+    </message>
+    <message>
+        <source>● recorded with pictures</source>
+        <translation>● mit Bildern aufgezeichnet</translation>
+    </message>
+    <message>
+        <source>● recorded</source>
+        <translation>● aufgezeichnet</translation>
+    </message>
+    <message>
+        <source>, %1 GB left</source>
+        <translation>, noch %1 GB frei</translation>
     </message>
     <message>
         <source>Compare sessions...</source>

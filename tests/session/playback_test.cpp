@@ -192,6 +192,39 @@ TEST(Playback, ShowsRecordedImagesAndDiscsWhereThereAreNone) {
   }
 }
 
+TEST(Playback, ImagesThatWereRecordedForAWhileAreShownThenAndOnlyThen) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.mcap";
+  SessionSettings settings = test::hoverSettings(31);
+  settings.rig.simulation.images = true;
+  settings.images = {{ImageQuality::kJpeg, 0.0, false}, {}, {}};
+  {
+    Recorder recorder(file, settings, Recorder::WhenFull::kWait);
+    LockStep flight(settings.rig, settings.plan, &recorder);
+    EXPECT_FALSE(recorder.recordsImages());
+    for (int i = 0; i < 420; ++i) {
+      if (i == 60 || i == 120) recorder.recordImages(i == 60);
+      flight.tick({});
+    }
+    EXPECT_FALSE(recorder.recordsImages());
+  }
+  FlightPlayback playback(file, std::make_shared<ManualClock>());
+  // Discs stand on paper of one colour, which no rendered room has in all four corners.
+  const auto image = [&](double seconds) {
+    playback.seek(fromSeconds(seconds));
+    playback.pollPicture(cameraId(0));
+    const std::vector<std::uint8_t>& bgr = playback.picture(cameraId(0)).bgr;
+    const std::size_t row = 3 * 640, last = bgr.size() - 3;
+    return !(std::equal(&bgr[0], &bgr[3], &bgr[row - 3]) && std::equal(&bgr[0], &bgr[3], &bgr[last]));
+  };
+  EXPECT_FALSE(image(0.9));
+  EXPECT_TRUE(image(1.5));
+  EXPECT_TRUE(image(2.5)) << "the last one, for a moment";
+  EXPECT_FALSE(image(6.5));
+  EXPECT_TRUE(image(1.7));
+  EXPECT_FALSE(image(0.5)) << "back before the first one";
+}
+
 TEST(Playback, WhatIsNoSessionIsRefused) {
   const TemporaryFolder folder;
   test::writeBytes(folder / "foreign.mcap", "no session");

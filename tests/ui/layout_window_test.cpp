@@ -45,6 +45,23 @@ TEST_F(WindowLayout, PanelsComeBackWhereTheyWereLeft) {
   EXPECT_TRUE(dock(*window, "Calibration")->isVisible());
 }
 
+TEST_F(WindowLayout, APanelGetsAWindowOfItsOwnAndComesBackByTheMenu) {
+  auto window = openWith({});
+  QAction* action = nullptr;
+  for (QAction* candidate : window->findChildren<QAction*>())
+    if (candidate->text() == "Events" && candidate != dock(*window, "Events")->toggleViewAction())
+      action = candidate;
+  ASSERT_NE(action, nullptr);
+  dock(*window, "Events")->hide();
+  action->trigger();
+  EXPECT_TRUE(dock(*window, "Events")->isFloating());
+  EXPECT_TRUE(dock(*window, "Events")->isVisible());
+  action->trigger();
+  EXPECT_FALSE(dock(*window, "Events")->isFloating());
+  dock(*window, "Events")->setFloating(true);
+  EXPECT_TRUE(action->isChecked()) << "as it is, however it came to be";
+}
+
 TEST_F(WindowLayout, WithoutAFileOrWithANonsensicalOneItOpensAsEver) {
   const QString file = folder_.filePath("broken.ini");
   QFile broken(file);

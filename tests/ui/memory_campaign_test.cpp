@@ -16,7 +16,9 @@ constexpr double kWarmUpS = 60.0;
 using MemoryCampaign = WindowTest;
 
 TEST_F(MemoryCampaign, ThirtyMinutesOfFlightCostLessThanAMegabyteEach) {
-  open(true);
+  RigConfig rig = shippedRig(true);
+  rig.safety.flight_time_limit_s = 120.0 * kMinutes;  // it would land after ten minutes
+  open(rig);
   ASSERT_NO_FATAL_FAILURE(takeOffByMouse());
   const auto flyFor = [this](double seconds) {
     const double end = toSeconds(snapshot().time) + seconds;

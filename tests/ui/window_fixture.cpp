@@ -38,14 +38,15 @@ void WindowTest::open(bool images, bool auto_take_off) {
   open(shippedRig(images), auto_take_off);
 }
 
-void WindowTest::open(const RigConfig& rig, bool auto_take_off) {
+void WindowTest::open(const RigConfig& rig, bool auto_take_off, Recorder* record) {
   WindowOptions options;
   options.auto_take_off = auto_take_off;
+  options.record = record;
   window_ = std::make_unique<MainWindow>(rig, options);
   window_->fitToScreen();
   window_->show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get(), kPatienceMs));
-  engine_ = std::make_unique<Engine>(rig, hoverWithoutEnd());
+  engine_ = std::make_unique<Engine>(rig, hoverWithoutEnd(), record);
   engine_->start();
   window_->attach(*engine_);
 }

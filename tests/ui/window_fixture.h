@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/pipeline/engine.h"
+#include "engine/session/recorder.h"
 #include "ui/main_window.h"
 
 namespace helical {
@@ -17,7 +18,8 @@ class WindowTest : public testing::Test {
   static constexpr int kPatienceMs = 60'000;  ///< for anything that must happen; no measure of speed
 
   void open(bool images, bool auto_take_off = false);
-  void open(const RigConfig& rig, bool auto_take_off = false);
+  /// `record`: taps the flight, and ends after the window.
+  void open(const RigConfig& rig, bool auto_take_off = false, Recorder* record = nullptr);
   void TearDown() override;
 
   static RigConfig shippedRig(bool images);

@@ -82,7 +82,9 @@ struct StartingFlight {
 /// Until the window is closed; true if it is to come back with the transmitter's channels calibrated.
 bool runFlight(StartingFlight& starting, const RigConfig& rig, WindowOptions options,
                const std::vector<std::filesystem::path>& cut_off) {
-  options.record = starting.recorder.get();
+  if (Recorder* record = starting.recorder.get(); record != nullptr)
+    options.pictures = {[record](bool on) { record->recordImages(on); },
+                        [record] { return record->recordsImages(); }};
   MainWindow window(rig, options);
   bool calibrate = false;
   QObject::connect(&window, &MainWindow::firstImage, &printFirstImage);

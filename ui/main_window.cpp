@@ -15,7 +15,6 @@
 
 #include "engine/base/error.h"
 #include "engine/config/resource_files.h"
-#include "engine/session/recorder.h"
 #include "ui/alarm_bar.h"
 #include "ui/attitude_indicator.h"
 #include "ui/button_keys.h"
@@ -295,7 +294,7 @@ void MainWindow::buildMenus() {
 }
 
 void MainWindow::recordPictures(bool on) {
-  if (options_.record != nullptr) options_.record->recordImages(on);
+  if (options_.pictures.turn) options_.pictures.turn(on);
 }
 
 void MainWindow::askForChannels() {

@@ -4,6 +4,7 @@
 #include <QMainWindow>
 #include <QTimer>
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -30,16 +31,21 @@ class PlanEditor;
 class PlaybackBar;
 class PlotDeck;
 class RecordLabel;
-class Recorder;
 class SceneView;
 class TopBar;
 class TuningEditor;
 class Viewpoints;
 
+/// The cameras' pictures in the record of a flight; both empty where there is no record.
+struct PictureRecord {
+  std::function<void(bool on)> turn;
+  std::function<bool()> on;
+};
+
 struct WindowOptions {
   bool auto_take_off = false;  ///< start the plan as soon as the pose is known
   QString session_folder;      ///< where File > Open session begins
-  Recorder* record = nullptr;  ///< of this flight, if there is one; outlives the window
+  PictureRecord pictures;      ///< what Ctrl+R turns on and off
   QString layout_file;         ///< where the panels' places are kept from one session to the next; empty: not
 };
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "engine/base/log.h"
-#include "engine/session/recorder.h"
 #include "ui/alarm_bar.h"
 #include "ui/attitude_indicator.h"
 #include "ui/calibration_panel.h"
@@ -105,8 +104,8 @@ void MainWindow::showNumbers(const EngineSnapshot& snapshot) {
     top_bar_->landButton()->setEnabled(false);
   }
   menus_->show(snapshot, top_bar_->takeOffButton()->isEnabled(), top_bar_->landButton()->isEnabled());
-  const bool pictures = options_.record != nullptr && options_.record->recordsImages();
-  menus_->showRecord(snapshot.devices.record.recording && options_.record != nullptr, pictures);
+  const bool pictures = options_.pictures.on && options_.pictures.on();
+  menus_->showRecord(snapshot.devices.record.recording && options_.pictures.turn, pictures);
   record_->showRecord(snapshot.devices.record, pictures);
   flight_->show(snapshot);
   attitude_->show(snapshot);

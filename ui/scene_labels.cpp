@@ -13,6 +13,7 @@ namespace {
 constexpr int kMostLines = 6;
 constexpr int kFaintAlpha = 110;  // of a camera that is not in use
 constexpr QSizeF kPadding(6.0, 2.0);
+const QColor kShade(12, 16, 21, 140);  // legible over frusta, too
 
 /// 0, 1 up, 1 down, 2 up, ...
 double shiftOf(int attempt, double line) {
@@ -51,6 +52,7 @@ void paintSceneLabels(QPainter& painter, const std::vector<SceneLabel>& labels, 
   for (std::size_t i = 0; i < labels.size(); ++i) {
     QColor color = theme::on_dark::cameraColor(labels[i].camera);
     if (!labels[i].in_use) color.setAlpha(kFaintAlpha);
+    painter.fillRect(boxes[i], kShade);
     painter.setPen(color);
     painter.drawText(boxes[i], Qt::AlignCenter, names[i]);
     if (boxes[i].contains(anchors[i])) continue;

@@ -41,7 +41,9 @@ void WindowTest::open(bool images, bool auto_take_off) {
 void WindowTest::open(const RigConfig& rig, bool auto_take_off, Recorder* record) {
   WindowOptions options;
   options.auto_take_off = auto_take_off;
-  options.record = record;
+  if (record != nullptr)
+    options.pictures = {[record](bool on) { record->recordImages(on); },
+                        [record] { return record->recordsImages(); }};
   window_ = std::make_unique<MainWindow>(rig, options);
   window_->fitToScreen();
   window_->show();

@@ -31,6 +31,11 @@ FrameInformation frameInformation(const CameraModel& camera, const MarkerLayout&
   const Vector6d ahead = map * weights.ahead;
   const Eigen::Matrix3d rotation = camera_from_world.rotation.toRotationMatrix();
   const Eigen::Matrix3d body = frame.world_from_body.rotation.toRotationMatrix();
+  // A turn by a random rotation vector e of covariance P shortens an arm on average: E[exp(e)] = I + (P - tr(P) I) / 2.
+  // Without that the balls seem to lie nearer together than they should, and the camera farther away.
+  const Eigen::Matrix3d turned = frame.pose_covariance.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d mean_body =
+      body + 0.5 * body * (turned - turned.trace() * Eigen::Matrix3d::Identity());
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   std::array<double, kMaxMarkers> distances;
@@ -38,7 +43,7 @@ FrameInformation frameInformation(const CameraModel& camera, const MarkerLayout&
   for (int i = 0; i < frame.count; ++i) {
     const LabelledPixel& seen = frame.pixels[static_cast<std::size_t>(i)];
     const Eigen::Vector3d& marker = markers.inBody(seen.marker);
-    const Eigen::Vector3d arm = body * marker;
+    const Eigen::Vector3d arm = mean_body * marker;
     Eigen::Matrix<double, 2, 3> d_point;
     const auto pixel = camera.project(
         rotation * (arm + frame.world_from_body.translation) + camera_from_world.translation, &d_point);

@@ -1,10 +1,11 @@
-// Whatever happens to a file, loading it gives a rig or plan, or an Error; nothing else, and no crash.
+// Whatever happens to a file, loading it gives a rig, plan or calibration, or an Error; nothing else, and no crash.
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "engine/base/random.h"
+#include "engine/config/calibration_file.h"
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
 #include "engine/config/rig_file.h"
@@ -55,6 +56,27 @@ TEST(DamagedFile, OfARigLoadsOrExplainsItself) {
 
 TEST(DamagedFile, OfAPlanLoadsOrExplainsItself) {
   damage(readTextFile(resourceFolder() / "plans" / "waypoints.toml", "flight plan"), parsePlan);
+}
+
+TEST(DamagedFile, OfATransmittersChannelsLoadsOrExplainsItself) {
+  std::string text = goodRig() + "\n[transmitter]\nkind = \"mcc-usb-3100\"\ntrainer_input = 2\nrate_hz = 200\n";
+  for (const char* stick : {"throttle", "yaw", "roll", "pitch"})
+    text += "[[transmitter.channel]]\nstick = \"" + std::string(stick) + "\"\nminimum = 0.5\nneutral = 2.0\nmaximum = 4.5\n";
+  damage(text, parseRig);
+}
+
+TEST(DamagedFile, OfACalibrationLoadsOrExplainsItself) {
+  SavedCalibration calibration;
+  calibration.rig = "rig.toml";
+  calibration.written = "2010-12-21T10:00:00Z";
+  SavedCamera camera;
+  camera.label = "left";
+  camera.method = "joint";
+  camera.camera_from_world.translation = {0.25, -2.0, 1.5};
+  camera.covariance = 1e-6 * Matrix6d::Identity();
+  calibration.cameras.assign(2, camera);
+  calibration.cameras[1].label = "right";
+  damage(toToml(calibration), parseCalibration);
 }
 
 TEST(DamagedFile, NestedWithoutEndIsRefused) {

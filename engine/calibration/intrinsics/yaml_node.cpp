@@ -181,6 +181,7 @@ class Parser {
       if (rest.front() == '[' || rest.front() == '{') {
         value = flow(rest, line, depth + 1);
       } else {
+        if (open == '[' && rest.front() == '}') fail(line, "a bracket is closed by one of another kind");
         const auto end = std::min(rest.find_first_of(",]}"), rest.size());
         value = YamlNode{YamlNode::Kind::kScalar, line, unquoted(trimmed(rest.substr(0, end))), {}, {}};
         rest.remove_prefix(end);

@@ -69,6 +69,19 @@ Finding checkRig(const TransmitterOptions& transmitter, const std::vector<Plugge
   return {"transmitter", Verdict::kBad, std::string("the rig's ") + transmitter.kind + ": " + toString(trouble), cureOf(trouble)};
 }
 
+/// Whether Helical can know that the pilot has taken over.
+Finding checkTrainerSwitch(const TransmitterOptions& transmitter) {
+  constexpr const char* kCheck = "trainer switch";
+  if (transmitter.kind == kCrazyradioDevice)
+    return {kCheck, Verdict::kAdvice,
+            "a Crazyradio has no input for one: no other transmitter can take over while Helical sends",
+            "who watches presses STOP (Esc), which cuts; then another radio may fly"};
+  if (transmitter.trainer_input < 0)
+    return {kCheck, Verdict::kAdvice, "the rig names no input: Helical does not know when the pilot has taken over",
+            "wire the switch to a digital input and give its number: trainer_input in [transmitter]"};
+  return {kCheck, Verdict::kGood, "at digital input " + std::to_string(transmitter.trainer_input), ""};
+}
+
 }  // namespace
 
 json usbTransmittersJson() {
@@ -100,7 +113,9 @@ std::vector<Finding> checkUsbTransmitters(const std::filesystem::path& root, con
   for (const Plugged& device : devices)
     if (device.found.trouble != TransmitterTrouble::kNone)
       findings.push_back({nameOf(device), Verdict::kBad, toString(device.found.trouble), cureOf(device.found.trouble)});
-  if (usb_rig) findings.push_back(checkRig(rig->transmitter, devices, missing));
+  if (!usb_rig) return findings;
+  findings.push_back(checkRig(rig->transmitter, devices, missing));
+  findings.push_back(checkTrainerSwitch(rig->transmitter));
   return findings;
 }
 

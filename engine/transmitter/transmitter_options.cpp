@@ -60,6 +60,9 @@ void validate(const TransmitterOptions& options) {
   if (options.channels.count > 0 && !isUsb(options))
     throw Error(ErrorKind::kInput, "channels are of USB devices, and kind is '" + options.kind + "'", {},
                 "remove [[transmitter.channel]], or name a USB device");
+  if (options.trainer_input >= 0 && options.kind != kMccDevice)
+    throw Error(ErrorKind::kInput, "trainer_input is of MCC devices, and kind is '" + options.kind + "'", {},
+                "remove it: what has no digital input knows of no trainer switch");
   if (!(options.rate_hz >= 50.0 && options.rate_hz <= 500.0))
     throw Error(ErrorKind::kInput, "rate_hz is " + std::to_string(options.rate_hz), {}, "give 50 to 500 Hz");
 }

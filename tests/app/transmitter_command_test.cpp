@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include "engine/config/rig_file.h"
 #include "tests/transmitter/emulated_bus.h"
@@ -134,6 +135,28 @@ TEST_F(TransmitterCommand, WithoutADeviceItIsMissing) {
   port_->unplug();
   EXPECT_EQ(run("calibrate", kTyped), 3);
   EXPECT_EQ(text(), kRig);
+}
+
+/// Who watches is told before the first flight whether anybody would know that the pilot has taken over.
+TEST_F(TransmitterCommand, TheDoctorKnowsWhetherThereIsATrainerSwitch) {
+  const auto says = [this](const std::string& text) {
+    std::ofstream(rig()) << text;
+    const std::string file = (folder_ / "doctor").string();
+    const std::string command = std::string(HELICAL_PROGRAM) + " doctor --rig " + rig() + " >" + file + " 2>" + said();
+    std::ignore = std::system(command.c_str());
+    std::ifstream stream(file);
+    std::ostringstream all;
+    all << stream.rdbuf();
+    return all.str();
+  };
+  const std::string mcc = kRig;
+  EXPECT_NE(says(mcc).find("the rig names no input"), std::string::npos);
+  std::string wired = mcc;
+  wired.replace(wired.find("rate_hz = 200"), 13, "trainer_input = 3");
+  EXPECT_NE(says(wired).find("at digital input 3"), std::string::npos);
+  std::string radio = mcc;
+  radio.replace(radio.find("mcc-usb-3100"), 12, "crazyradio");
+  EXPECT_NE(says(radio).find("has no input for one"), std::string::npos);
 }
 
 TEST_F(TransmitterCommand, ARigWithoutSuchATransmitterIsABadInput) {

@@ -96,6 +96,15 @@ TEST(TransmitterTable, ReadsARadio) {
   EXPECT_EQ(options.radio.address, (std::array<std::uint8_t, 5>{0xE7, 1, 2, 3, 10}));
 }
 
+/// What would never say that the pilot flies must not look as if it could.
+TEST(TransmitterTable, ATrainerSwitchNeedsADeviceWithAnInputForIt) {
+  for (const char* kind : {"crazyradio", "simulated", "none"}) {
+    const std::string text = rigWith("kind = \"" + std::string(kind) + "\"\ntrainer_input = 2\n");
+    const Error error = errorOf([&] { parseRig(text, "rig.toml"); });
+    EXPECT_NE(error.problem().find("trainer_input"), std::string::npos) << kind << ": " << error.what();
+  }
+}
+
 struct Mistake {
   std::string from, to, culprit;
 };

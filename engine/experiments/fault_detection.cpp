@@ -8,6 +8,7 @@ namespace helical {
 namespace {
 
 constexpr double kPatience = 1.5;  // limits, that a fault must last to count
+constexpr double kUsedIfSoonerS = 0.02;  // frames that are later than this may come too late for the pose
 constexpr double kShortLimitS = 0.5;  // within it a starved processor has but a few ticks
 
 bool alarms(const EngineSnapshot& tick, Failsafe failsafe) {
@@ -22,12 +23,16 @@ bool isAbout(const Fault& fault, CameraId camera) {
   return fault.camera == camera || (fault.kind == FaultKind::kCamerasSwapped && fault.other == camera);
 }
 
+bool isByImage(FaultKind kind) {
+  return kind == FaultKind::kCameraKnocked || kind == FaultKind::kCamerasSwapped;
+}
+
 /// Whether `other` leaves nothing there to notice `fault` by in the time that it has: nothing comes from the camera,
 /// there is nothing in its images, or no processor runs.
 bool isHiddenBehind(const Fault& fault, const Fault& other) {
   const double limit_s = detectionLimit(fault.kind);
   if (other.from_s > fault.from_s + kPatience * limit_s || other.to_s < fault.from_s) return false;
-  const bool by_image = fault.kind == FaultKind::kCameraKnocked || fault.kind == FaultKind::kCamerasSwapped;
+  const bool by_image = isByImage(fault.kind);
   const bool by_frame = by_image || fault.kind == FaultKind::kCameraLate || fault.kind == FaultKind::kClockJump;
   switch (other.kind) {
     case FaultKind::kProcessorStarved:
@@ -43,6 +48,18 @@ bool isHiddenBehind(const Fault& fault, const Fault& other) {
   }
 }
 
+/// When the frames that show `fault` are used; infinite: not in this flight.
+double usedFrom(const Fault& fault, const std::vector<Fault>& faults) {
+  double from_s = fault.from_s;
+  for (const Fault& other : faults) {
+    const bool left_out = other.kind == FaultKind::kClockJump ||
+                          (other.kind == FaultKind::kCameraLate && other.amount > kUsedIfSoonerS);
+    if (left_out && isAbout(fault, other.camera) && other.from_s < from_s + detectionLimit(fault.kind))
+      from_s = std::max(from_s, other.to_s + other.amount);
+  }
+  return from_s;
+}
+
 /// Those whose rule needs rotors that turn.
 bool needsRotors(FaultKind kind) {
   return kind == FaultKind::kCamerasHidden || kind == FaultKind::kCamerasSwapped || kind == FaultKind::kCameraKnocked;
@@ -54,7 +71,8 @@ FaultDetection::FaultDetection(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) {
     const bool hidden = std::any_of(faults.begin(), faults.end(),
                                     [&](const Fault& other) { return isHiddenBehind(fault, other); });
-    if (!std::isnan(detectionLimit(fault.kind)) && !hidden) watched_.push_back({.fault = fault});
+    if (std::isnan(detectionLimit(fault.kind)) || hidden) continue;
+    watched_.push_back({.fault = fault, .used_from_s = isByImage(fault.kind) ? usedFrom(fault, faults) : fault.from_s});
   }
 }
 
@@ -70,8 +88,8 @@ bool FaultDetection::isNoticed(const Watched& watched, const EngineSnapshot& tic
       return alarms(tick, Failsafe::kCameraClock);
     case FaultKind::kCameraKnocked:
     case FaultKind::kCamerasSwapped:
-      return camera.knocks_found > watched.knocks_before || camera.estimate.status == CameraStatus::kRejected ||
-             tick.cameras_disagree || alarms(tick, Failsafe::kUncertain) || alarms(tick, Failsafe::kNoPoseCoast);
+      return camera.knocks_found > watched.knocks_before || tick.cables_changed != watched.changes_before ||
+             camera.estimate.status == CameraStatus::kRejected || tick.cameras_disagree || alarms(tick, Failsafe::kUncertain) || alarms(tick, Failsafe::kNoPoseCoast);
     case FaultKind::kTransmitterUnplugged:
     case FaultKind::kTransmitterStalled:
       return alarms(tick, Failsafe::kTransmitterFault);
@@ -93,24 +111,27 @@ void FaultDetection::add(const EngineSnapshot& tick) {
     if (!w.began) {
       w.began = true;
       w.knocks_before = cameraOf(w.fault, tick).knocks_found;
+      w.changes_before = tick.cables_changed;
       w.counts = watchable && !isNoticed(w, tick);
     }
     if (!w.counts || w.detected_s >= 0.0) continue;
     if (watchable) w.watched_until_s = time_s;
     if (isNoticed(w, tick)) w.detected_s = time_s;
-    if (!watchable)
-      w.counts = w.detected_s >= 0.0 ||
-                 w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
+    if (!watchable) w.counts = w.detected_s >= 0.0 || wasWatchedForLong(w);
   }
+}
+
+bool FaultDetection::wasWatchedForLong(const Watched& watched) {
+  return watched.watched_until_s - watched.used_from_s > kPatience * detectionLimit(watched.fault.kind);
 }
 
 std::vector<Detection> FaultDetection::result() const {
   std::vector<Detection> all;
   for (const Watched& w : watched_) {
-    const bool long_enough = w.watched_until_s - w.fault.from_s > kPatience * detectionLimit(w.fault.kind);
-    if (!w.counts || (w.detected_s < 0.0 && !long_enough)) continue;
-    all.push_back({w.fault.kind, w.detected_s >= 0.0 ? w.detected_s - w.fault.from_s
-                                                     : std::numeric_limits<double>::infinity()});
+    const bool detected = w.detected_s >= 0.0;
+    if (!w.counts || (!detected && !wasWatchedForLong(w))) continue;
+    const double from_s = w.detected_s < w.used_from_s ? w.fault.from_s : w.used_from_s;
+    all.push_back({w.fault.kind, detected ? w.detected_s - from_s : std::numeric_limits<double>::infinity()});
   }
   return all;
 }

@@ -114,6 +114,9 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   if (now.cameras_disagree && !disagreed_)
     raise(event(now.time, Severity::kDanger, "The last two cameras disagree: one was moved, which is not known"));
   disagreed_ = now.cameras_disagree;
+  if (now.cables_changed != cables_changed_)
+    raise(event(now.time, Severity::kCaution, "Two cameras have changed cables: each is taken for the other one now"));
+  cables_changed_ = now.cables_changed;
   if (now.cold_start != nullptr && now.cold_start != cold_start_)
     raise(event(now.time, Severity::kInfo, now.cold_start));
   cold_start_ = now.cold_start;

@@ -65,6 +65,7 @@ class Announcer {
   bool gave_up_ = false;
   bool gust_blew_ = false;
   bool disagreed_ = false;
+  std::uint32_t cables_changed_ = 0;
   const char* cold_start_ = nullptr;
   RecordHealth record_;
   std::array<Camera, kMaxCameras> cameras_{};

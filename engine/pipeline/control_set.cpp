@@ -55,8 +55,31 @@ void ControlSet::hide(CameraId camera, bool hidden) {
 void ControlSet::refreshUsable() {
   for (std::size_t i = 0; i < cameras_; ++i)
     usable_[i] = estimates_[i].status == CameraStatus::kCalibrated && !hidden_[i];
-  if (disputed_ >= 0 && estimates_[static_cast<std::size_t>(disputed_)].status == CameraStatus::kCalibrated)
-    disputed_ = -1;
+  for (std::size_t i = 0; i < cameras_; ++i)
+    if (estimates_[i].status == CameraStatus::kCalibrated) set_aside_[i].reset();
+}
+
+bool ControlSet::camerasDisagree() const {
+  return std::any_of(set_aside_.begin(), set_aside_.end(), [](const auto& place) { return place.has_value(); });
+}
+
+std::array<const CameraEstimate*, kMaxCameras> ControlSet::places() const {
+  std::array<const CameraEstimate*, kMaxCameras> places{};
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    if (usable_[i]) places[i] = &estimates_[i];
+    if (set_aside_[i] && !hidden_[i]) places[i] = &*set_aside_[i];
+  }
+  return places;
+}
+
+void ControlSet::standsAsBefore(CameraId camera) {
+  const std::size_t index = indexOf(camera);
+  steps_.forget(camera);
+  detectors_[index] = KnockDetector();
+  if (!set_aside_[index]) return;
+  // `place` forgets the place that it is given.
+  const CameraEstimate before = *set_aside_[index];
+  place(index, before);
 }
 
 void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibration>& calibration) {
@@ -185,7 +208,7 @@ void ControlSet::takeOut(std::size_t camera, int witnesses, const Tracker& track
   if (named)
     ++knocks_found_[camera];
   else
-    disputed_ = static_cast<int>(camera);
+    set_aside_[camera] = estimates_[camera];
   found_by_cold_start_[camera] = refined_[camera] = refining_[camera] = false;
   refinement_->forget(cameraId(static_cast<int>(camera)));
   steps_.forget(cameraId(static_cast<int>(camera)));

@@ -22,7 +22,7 @@ namespace helical {
 /// teaches those whose pose is not known yet, and takes out those that were knocked, whether their pose was
 /// given or learnt, to teach them anew from where they stood. Of two that disagree nobody can tell which one was
 /// moved, and none is named; but flying on with both crashes, so that the one that jumped away from the pose
-/// predicted from before is set aside until the operator decides. Knocks too small to throw a ball out of its gate
+/// predicted from before is set aside until it agrees again or the operator decides. Knocks too small to throw a ball out of its gate
 /// are found by StepDetector where three cameras are in control.
 ///
 /// Who teaches whom has no circles. Cameras with a given pose have rank 0, those whose pose has to be found rank
@@ -61,7 +61,11 @@ class ControlSet {
   const char* instruction() const;
   std::optional<CalibrationBound> bound(CameraId camera) const { return bounds_[indexOf(camera)].bound(); }
   /// Two were left, and one of them was moved.
-  bool camerasDisagree() const { return disputed_ >= 0; }
+  bool camerasDisagree() const;
+  /// Where each camera stands, in control or as it was set aside; null where nobody vouches for a place.
+  std::array<const CameraEstimate*, kMaxCameras> places() const;
+  /// It does stand where it stood: if it was set aside it flies again, and what it showed of late counts no more.
+  void standsAsBefore(CameraId camera);
   /// How often this camera was found knocked.
   int knocksFound(CameraId camera) const { return knocks_found_[indexOf(camera)]; }
 
@@ -107,7 +111,7 @@ class ControlSet {
   std::array<KnockDetector, kMaxCameras> detectors_;
   StepDetector steps_;
   std::array<int, kMaxCameras> knocks_found_{};
-  int disputed_ = -1;  ///< the camera that was set aside when two disagreed
+  std::array<std::optional<CameraEstimate>, kMaxCameras> set_aside_;  ///< where it stood when two disagreed
   std::array<std::unique_ptr<CameraCalibration>, kMaxCameras> calibrations_;
   std::array<LiveBound, kMaxCameras> bounds_;
   std::unique_ptr<ColdStart> cold_start_;        ///< if fewer than two cameras were given

@@ -33,6 +33,7 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
       tracker_(makeTracker(rig.tracker, rig.tracking, rig.markers_in_body, models(rig),
                            rig.helicopter.standing_height)),
       control_set_(rig),
+      cables_(rig.markers_in_body, models(rig), rig.helicopter.standing_height),
       health_(rig),
       autopilot_(plan, rig.control, rig.safety, rig.helicopter) {
   snapshot_.camera_count = static_cast<int>(rig.cameras.size());
@@ -40,6 +41,14 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
 }
 
 void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
+  const CameraId camera = cables_.cameraOf(observation.camera);
+  if (camera == observation.camera) return use(observation, now);
+  of_its_camera_ = observation;
+  of_its_camera_.camera = camera;
+  use(of_its_camera_, now);
+}
+
+void FlightLoop::use(const Observation& observation, TimeNs now) {
   const TimeNs begin = stopwatch().now();
   const auto index = static_cast<std::size_t>(observation.camera.index());
   count(observation, now);
@@ -50,8 +59,19 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
   // Frames that waited for a starved processor are as old as they are.
   if (tracker_->lastUpdate() != last_update) pose_time_ = std::max(pose_time_, std::min(now, observation.arrival));
   control_set_.learn(observation, *tracker_, airborne_);
+  watchCables(observation);
   snapshot_.cameras[index].track = tracker_->track(observation.camera);
   work_since_tick_ += stopwatch().now() - begin;
+}
+
+void FlightLoop::watchCables(const Observation& observation) {
+  // Before the first calibration somebody carries the helicopter about, and nothing agrees.
+  if (!airborne_ && control_set_.instruction() != nullptr) return;
+  const CableWatch::Verdict verdict =
+      cables_.add(observation, control_set_.places(), control_set_.usable(), *tracker_, airborne_);
+  if (verdict.finding == CableWatch::Finding::kNothing) return;
+  control_set_.standsAsBefore(verdict.camera);
+  control_set_.standsAsBefore(verdict.other);
 }
 
 void FlightLoop::swapPlan(FlightPlan& plan) {
@@ -131,6 +151,7 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
   snapshot_.cameras_disagree = control_set_.camerasDisagree();
+  snapshot_.cables_changed = cables_.changes();
   snapshot_.cold_start = airborne_ || snapshot_.pose_known ? nullptr : control_set_.instruction();
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
     const CameraId id = cameraId(static_cast<int>(i));
@@ -146,7 +167,8 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   }
 }
 
-BallPredictions FlightLoop::expectedBalls(CameraId camera) const {
+BallPredictions FlightLoop::expectedBalls(CameraId stream) const {
+  const CameraId camera = cables_.cameraOf(stream);
   const auto index = static_cast<std::size_t>(camera.index());
   if (!snapshot_.pose_known || !control_set_.usable()[index]) return {};
   return forecastBalls(snapshot_.tracked, control_set_.estimates()[index], rig_.cameras[index].model,

@@ -6,6 +6,7 @@
 #include "engine/config/rig_config.h"
 #include "engine/flight/autopilot.h"
 #include "engine/markers/ball_prediction.h"
+#include "engine/pipeline/cable_watch.h"
 #include "engine/pipeline/control_set.h"
 #include "engine/pipeline/health_monitor.h"
 #include "engine/pipeline/snapshot.h"
@@ -20,7 +21,8 @@ class FlightLoop {
  public:
   FlightLoop(const RigConfig& rig, const FlightPlan& plan);
 
-  /// One camera's observation, at its use. Any order of cameras; a camera's own in order.
+  /// One camera's observation, at its use. Any order of cameras; a camera's own in order. One whose cable is found at
+  /// another camera's place counts as of that one from then on.
   void onObservation(const Observation& observation, TimeNs now);
 
   /// One control tick: the sticks to send now.
@@ -40,9 +42,8 @@ class FlightLoop {
   }
   const CameraCalibration* calibration(CameraId camera) const { return control_set_.calibration(camera); }
 
-  /// Where a camera of the control set should see the balls, after the last tick; nothing while that is not
-  /// known.
-  BallPredictions expectedBalls(CameraId camera) const;
+  /// Where the balls should be in the images of a stream, after the last tick; nothing while that is not known.
+  BallPredictions expectedBalls(CameraId stream) const;
 
   /// State after the last tick.
   const EngineSnapshot& snapshot() const { return snapshot_; }
@@ -55,6 +56,8 @@ class FlightLoop {
     std::uint64_t window_frames = 0;
     TimeNs unused_arrival = -1;  ///< of the newest frame that no command has used yet
   };
+  void use(const Observation& observation, TimeNs now);
+  void watchCables(const Observation& observation);
   void count(const Observation& observation, TimeNs now);
   void measureRates(TimeNs now);
   void fillSnapshot(TimeNs now, const AutopilotOutput& output);
@@ -62,6 +65,8 @@ class FlightLoop {
   RigConfig rig_;
   std::unique_ptr<Tracker> tracker_;
   ControlSet control_set_;
+  CableWatch cables_;
+  Observation of_its_camera_;
   HealthMonitor health_;
   Autopilot autopilot_;
   EngineSnapshot snapshot_;

@@ -18,7 +18,8 @@ constexpr std::uint32_t kEndingFailsafes =
     static_cast<std::uint32_t>(Failsafe::kFence) | static_cast<std::uint32_t>(Failsafe::kHardFence) |
     static_cast<std::uint32_t>(Failsafe::kFlightTime) | static_cast<std::uint32_t>(Failsafe::kKill) |
     static_cast<std::uint32_t>(Failsafe::kLiftOffFailed) | bitOf(Failsafe::kUncertainLand) |
-    bitOf(Failsafe::kSpeed) | bitOf(Failsafe::kTransmitterLost);
+    bitOf(Failsafe::kSpeed) | bitOf(Failsafe::kTransmitterLost) |
+    bitOf(Failsafe::kTransmitterStalled) | bitOf(Failsafe::kTransmitterSilent);
 
 double normalised(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
   return error.dot(covariance.ldlt().solve(error));

@@ -97,6 +97,7 @@ struct EngineSnapshot {
   const char* refusal = nullptr;   ///< at the tick when a take-off order is given up: why; a literal
   const char* cold_start = nullptr;  ///< no camera is calibrated: what the operator has to do; a literal
   bool cameras_disagree = false;     ///< one of the two that are left was moved; which one, nobody can tell
+  std::uint32_t cables_changed = 0;  ///< how often two cameras were found at each other's cable
   bool has_truth = false;          ///< simulated flights only
   HelicopterState truth;           ///< at `time`
   Verdict verdict;                 ///< valid with `has_truth`

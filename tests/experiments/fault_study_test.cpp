@@ -52,6 +52,16 @@ TEST(FaultFlight, RepeatsForASeed) {
   EXPECT_EQ(first.verdict.hardest_touch, second.verdict.hardest_touch);
 }
 
+/// Two cameras change cables while all are hidden; a transmitter that takes nothing for 0.12 s; a radio that is not
+/// heard for longer.
+TEST(FaultFlight, WhatOnceCrashedLands) {
+  for (const std::uint64_t seed : {611, 657, 10}) {
+    const FaultFlight flight = flyWithFaults(rig(), plan(), seed);
+    EXPECT_TRUE(flight.flown) << "seed " << seed;
+    EXPECT_FALSE(flight.isHard()) << "seed " << seed << ": " << flight.outcome << ", " << flight.verdict.hardest_touch;
+  }
+}
+
 bool wasBlind(const FaultFlight& flight) {
   return std::any_of(flight.faults.begin(), flight.faults.end(),
                      [](const Fault& fault) { return fault.kind == FaultKind::kCamerasHidden; });

@@ -116,7 +116,7 @@ StatusWord pilotWord(const EngineSnapshot& snapshot) {
 }
 
 QString failsafeNames(std::uint32_t failsafes) {
-  static const std::array<std::pair<Failsafe, const char*>, 15> names{{
+  static const std::array<std::pair<Failsafe, const char*>, 17> names{{
       {Failsafe::kNoPoseCoast, QT_TRANSLATE_NOOP("Status", "coast")},
       {Failsafe::kNoPoseDescent, QT_TRANSLATE_NOOP("Status", "descent")},
       {Failsafe::kNoPoseCut, QT_TRANSLATE_NOOP("Status", "no-pose cut")},
@@ -132,6 +132,8 @@ QString failsafeNames(std::uint32_t failsafes) {
       {Failsafe::kUncertainLand, QT_TRANSLATE_NOOP("Status", "doubtful pose: landed")},
       {Failsafe::kSpeed, QT_TRANSLATE_NOOP("Status", "speed")},
       {Failsafe::kTransmitterLost, QT_TRANSLATE_NOOP("Status", "transmitter")},
+      {Failsafe::kTransmitterStalled, QT_TRANSLATE_NOOP("Status", "transmitter: landed")},
+      {Failsafe::kTransmitterSilent, QT_TRANSLATE_NOOP("Status", "transmitter: cut")},
   }};
   QStringList acted;
   for (const auto& [failsafe, name] : names)

@@ -139,6 +139,7 @@ constexpr OptionField<SupervisorOptions> kSupervisorFields[] = {
     {"camera_clock_s", &SupervisorOptions::camera_clock_s},
     {"overrun_s", &SupervisorOptions::overrun_s},
     {"transmitter_fault_s", &SupervisorOptions::transmitter_fault_s},
+    {"transmitter_cut_s", &SupervisorOptions::transmitter_cut_s},
     {"record_stalled_s", &SupervisorOptions::record_stalled_s},
     {"arm_cameras", &SupervisorOptions::arm_cameras},
     {"arm_rate_share", &SupervisorOptions::arm_rate_share},

@@ -90,6 +90,10 @@ const char* toString(Failsafe failsafe) {
       return "pilot-flies";
     case Failsafe::kRecord:
       return "record";
+    case Failsafe::kTransmitterStalled:
+      return "transmitter-land";
+    case Failsafe::kTransmitterSilent:
+      return "transmitter-silent-cut";
   }
   return "?";
 }
@@ -125,7 +129,7 @@ const char* messageOf(Failsafe failsafe) {
     case Failsafe::kSpeed:
       return "Too fast: lands where it is";
     case Failsafe::kTransmitterLost:
-      return "The transmitter does not answer: output cut, fly by hand";
+      return "The transmitter is gone: output cut, fly by hand";
     case Failsafe::kFenceNear:
       return "Near the fence: pushed back";
     case Failsafe::kFlightTimeSoon:
@@ -142,6 +146,10 @@ const char* messageOf(Failsafe failsafe) {
       return "The pilot's transmitter flies";
     case Failsafe::kRecord:
       return "The record of the flight has stopped";
+    case Failsafe::kTransmitterStalled:
+      return "The transmitter does not answer: lands as soon as it does, fly by hand";
+    case Failsafe::kTransmitterSilent:
+      return "The transmitter has not answered for long: output cut, fly by hand";
   }
   return "?";
 }

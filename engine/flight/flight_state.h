@@ -55,7 +55,7 @@ enum class Failsafe : std::uint32_t {
   kUncertain = 1u << 11,
   kUncertainLand = 1u << 12,
   kSpeed = 1u << 13,
-  kTransmitterLost = 1u << 14,
+  kTransmitterLost = 1u << 14,   ///< it is gone, and with it what it was told
   kFenceNear = 1u << 15,
   kFlightTimeSoon = 1u << 16,
   kCameraSilent = 1u << 17,
@@ -64,8 +64,10 @@ enum class Failsafe : std::uint32_t {
   kTransmitterFault = 1u << 20,
   kPilotFlies = 1u << 21,
   kRecord = 1u << 22,
+  kTransmitterStalled = 1u << 23,  ///< it is there, and has taken nothing for a while
+  kTransmitterSilent = 1u << 24,   ///< for long
 };
-inline constexpr int kFailsafeCount = 23;
+inline constexpr int kFailsafeCount = 25;
 
 constexpr std::uint32_t bitOf(Failsafe failsafe) {
   return static_cast<std::uint32_t>(failsafe);

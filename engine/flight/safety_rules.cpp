@@ -81,7 +81,9 @@ constexpr std::array<SafetyRule, kFailsafeCount> kRules{{
      [](const Options& o, const Memory&, const Conditions& c) { return c.speed > o.speed_limit; },
      &Options::speed_time_s, SafetyState::kLandNow, true, nullptr},
     {Failsafe::kTransmitterLost, Scope::kRotorsTurn, false,
-     [](const Options&, const Memory&, const Conditions& c) { return c.health.transmitter_fault; },
+     [](const Options&, const Memory&, const Conditions& c) {
+       return c.health.transmitter_fault && !c.health.transmitter_ready;
+     },
      &Options::transmitter_fault_s, SafetyState::kCut, true, nullptr},
     {Failsafe::kFenceNear, Scope::kInTheAir, true,
      [](const Options& o, const Memory&, const Conditions& c) {
@@ -115,6 +117,12 @@ constexpr std::array<SafetyRule, kFailsafeCount> kRules{{
        return c.health.record_failed || c.health.record_stalled;
      },
      &Options::record_stalled_s, SafetyState::kNormal, false, nullptr},
+    {Failsafe::kTransmitterStalled, Scope::kRotorsTurn, false,
+     [](const Options&, const Memory&, const Conditions& c) { return c.health.transmitter_fault; },
+     &Options::transmitter_fault_s, SafetyState::kLandNow, true, nullptr},
+    {Failsafe::kTransmitterSilent, Scope::kRotorsTurn, false,
+     [](const Options&, const Memory&, const Conditions& c) { return c.health.transmitter_fault; },
+     &Options::transmitter_cut_s, SafetyState::kCut, true, nullptr},
 }};
 
 constexpr bool inTheirOrder() {

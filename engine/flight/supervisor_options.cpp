@@ -36,6 +36,7 @@ void validate(const SupervisorOptions& o) {
       {"camera_clock_s", o.camera_clock_s},
       {"overrun_s", o.overrun_s},
       {"transmitter_fault_s", o.transmitter_fault_s},
+      {"transmitter_cut_s", o.transmitter_cut_s},
       {"record_stalled_s", o.record_stalled_s},
       {"arm_cameras", o.arm_cameras},
       {"arm_rate_share", o.arm_rate_share},
@@ -54,6 +55,9 @@ void validate(const SupervisorOptions& o) {
   if (o.neutral_after_s <= o.coast_after_s)
     throw Error(ErrorKind::kInput, "neutral_after_s is not longer than coast_after_s", {},
                 "neutral sticks follow a coast: give a longer time");
+  if (o.transmitter_cut_s <= o.transmitter_fault_s)
+    throw Error(ErrorKind::kInput, "transmitter_cut_s is not longer than transmitter_fault_s", {},
+                "it is to land before it is cut: give a longer time");
   const double narrowest = o.fence == FenceShape::kCylinder
                                ? std::min(o.fence_radius, o.fence_height)
                                : std::min({o.fence_half_x, o.fence_half_y, o.fence_height});

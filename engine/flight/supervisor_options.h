@@ -38,7 +38,8 @@ struct SupervisorOptions {
   double camera_silent_s = 0.1;
   double camera_clock_s = 0.5;
   double overrun_s = 0.010;          ///< of a control tick, three in a row: warn
-  double transmitter_fault_s = 0.1;  ///< of failing writes: cut, latched
+  double transmitter_fault_s = 0.1;  ///< gone: cut, latched; there but not answering: lands
+  double transmitter_cut_s = 0.5;    ///< not answering: cut, latched
   double record_stalled_s = 0.8;
 
   double arm_cameras = 2.0;      ///< live and calibrated, at least

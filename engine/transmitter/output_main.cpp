@@ -63,12 +63,13 @@ class Output {
   TimeNs period() const { return fromSeconds(1.0 / std::clamp(settings_.rate_hz, 10.0, 1000.0)); }
 
  private:
-  /// A device that was away, or that has not taken a demand for as long as an old one may be flown: whatever comes back,
-  /// comes back at rest.
+  /// A device that was away, or that has not taken a demand for as long as the rotors stay as they were without one:
+  /// whatever comes back, comes back at rest. One that answers sooner still has what holds the helicopter, and lands it.
   void watchDevice(TimeNs now) {
     const TransmitterStatus status = device_->status();
     if (!status.fault) well_at_ = now;
-    if (!status.present || toSeconds(now - well_at_) > settings_.guard.silent_s) guard_.lock();
+    const double answers_by = settings_.guard.silent_s + settings_.guard.hold_s;
+    if (!status.present || toSeconds(now - well_at_) > answers_by) guard_.lock();
     if (status.trouble == told_) return;
     told_ = status.trouble;
     if (told_ == TransmitterTrouble::kNone)

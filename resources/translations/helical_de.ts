@@ -1740,8 +1740,16 @@ m/s</translation>
         <translation>Zu schnell: landet, wo er ist</translation>
     </message>
     <message>
-        <source>The transmitter does not answer: output cut, fly by hand</source>
-        <translation>Der Sender antwortet nicht: Ausgang getrennt, von Hand fliegen</translation>
+        <source>The transmitter is gone: output cut, fly by hand</source>
+        <translation>Der Sender ist weg: Ausgang getrennt, von Hand fliegen</translation>
+    </message>
+    <message>
+        <source>The transmitter does not answer: lands as soon as it does, fly by hand</source>
+        <translation>Der Sender antwortet nicht: landet, sobald er es tut, von Hand fliegen</translation>
+    </message>
+    <message>
+        <source>The transmitter has not answered for long: output cut, fly by hand</source>
+        <translation>Der Sender antwortet lange nicht: Ausgang getrennt, von Hand fliegen</translation>
     </message>
     <message>
         <source>Near the fence: pushed back</source>
@@ -1850,6 +1858,18 @@ m/s</translation>
     <message>
         <source>doubtful pose</source>
         <translation>zweifelhafte Lage</translation>
+    </message>
+    <message>
+        <source>Two cameras have changed cables: each is taken for the other one now</source>
+        <translation>Zwei Kameras haben die Kabel getauscht: jede gilt jetzt als die andere</translation>
+    </message>
+    <message>
+        <source>transmitter: landed</source>
+        <translation>Sender: gelandet</translation>
+    </message>
+    <message>
+        <source>transmitter: cut</source>
+        <translation>Sender: getrennt</translation>
     </message>
     <message>
         <source>doubtful pose: landed</source>

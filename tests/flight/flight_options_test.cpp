@@ -104,7 +104,9 @@ TEST(SupervisorOptions, NamesEveryKeyOutOfItsRange) {
                            {"fence_radius", &O::fence_radius},
                            {"fence_height", &O::fence_height},
                            {"hard_fence_margin", &O::hard_fence_margin},
-                           {"flight_time_limit_s", &O::flight_time_limit_s}};
+                           {"flight_time_limit_s", &O::flight_time_limit_s},
+                           {"transmitter_fault_s", &O::transmitter_fault_s},
+                           {"transmitter_cut_s", &O::transmitter_cut_s}};
   for (const auto& key : limits)
     for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
       O options;
@@ -120,6 +122,12 @@ TEST(SupervisorOptions, DescentFollowsNeutralSticksAndThoseTheCoast) {
   options = {};
   options.neutral_after_s = options.coast_after_s;
   EXPECT_THAT(complaintAbout(options), HasSubstr("neutral_after_s"));
+}
+
+TEST(SupervisorOptions, ATransmitterThatDoesNotAnswerIsLandedOnBeforeItIsCut) {
+  SupervisorOptions options;
+  options.transmitter_cut_s = options.transmitter_fault_s;
+  EXPECT_THAT(complaintAbout(options), HasSubstr("transmitter_cut_s is not longer"));
 }
 
 TEST(SupervisorOptions, TheFenceLeavesRoomToBePushedBackTo) {

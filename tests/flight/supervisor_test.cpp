@@ -246,17 +246,39 @@ TEST(Supervisor, WithoutACalibratedCameraItIsAsWithoutAPose) {
   EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
 }
 
-TEST(Supervisor, AFailingTransmitterIsAnAlarmAtOnceAndACutForGoodAfterItsTime) {
+TEST(Supervisor, ATransmitterThatIsGoneIsAnAlarmAtOnceAndACutForGoodAfterItsTime) {
   SupervisedFlight flight;
+  flight.conditions.health.transmitter_ready = false;
   flight.conditions.health.transmitter_fault = true;
   EXPECT_EQ(flight.tick().alarms, bitOf(Failsafe::kTransmitterFault));
   EXPECT_EQ(flight.state(), SafetyState::kNormal);
+  flight.conditions.health.transmitter_ready = true;
   flight.conditions.health.transmitter_fault = false;
   EXPECT_EQ(flight.tick().alarms, 0u);
+  flight.conditions.health.transmitter_ready = false;
   flight.conditions.health.transmitter_fault = true;
   for (int i = 0; i < 9; ++i) flight.tick();
   EXPECT_EQ(flight.state(), SafetyState::kCut);
-  flight.conditions.health.transmitter_fault = false;  // plugged in again
+  flight.conditions.health.transmitter_ready = true;  // plugged in again
+  flight.conditions.health.transmitter_fault = false;
+  flight.conditions.arm = true;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(flight.tick().state, SafetyState::kCut);
+}
+
+TEST(Supervisor, ATransmitterThatIsThereAndTakesNothingIsLandedOnAndCutForGoodIfItStaysSo) {
+  SupervisedFlight flight;
+  flight.conditions.health.transmitter_fault = true;
+  EXPECT_EQ(flight.tick().alarms, bitOf(Failsafe::kTransmitterFault));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.tick().state, SafetyState::kNormal);
+  flight.tick();
+  EXPECT_EQ(flight.tick().state, SafetyState::kLandNow);
+  flight.conditions.health.transmitter_fault = false;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(flight.tick().state, SafetyState::kLandNow) << "whatever it does since";
+  flight.conditions.health.transmitter_fault = true;
+  for (int i = 0; i < 29; ++i) EXPECT_EQ(flight.tick().state, SafetyState::kLandNow);
+  for (int i = 0; i < 4; ++i) flight.tick();
+  EXPECT_EQ(flight.state(), SafetyState::kCut);
+  flight.conditions.health.transmitter_fault = false;
   flight.conditions.arm = true;
   for (int i = 0; i < 100; ++i) EXPECT_EQ(flight.tick().state, SafetyState::kCut);
 }

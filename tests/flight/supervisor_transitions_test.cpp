@@ -43,6 +43,8 @@ Demand expected(const SupervisorConditions& c) {
   ask(c.pose_age_s > 0.5, SafetyState::kDescending, false);
   ask(c.health.live_cameras == 0, SafetyState::kNeutral, false);
   ask(c.lift_off_failed, SafetyState::kCut, true);
+  ask(c.health.transmitter_fault && !c.health.transmitter_ready, SafetyState::kCut, true);
+  ask(c.health.transmitter_fault, SafetyState::kLandNow, true);
   ask(c.health.transmitter_fault, SafetyState::kCut, true);
   ask(seen && c.tilt > 1.047, SafetyState::kCut, true);
   if (c.phase != FlightPhase::kFlying && c.phase != FlightPhase::kLanding) return demand;
@@ -112,6 +114,10 @@ std::vector<SupervisorConditions> singleTriggers(FlightPhase phase) {
   add([](auto& c) { c.lift_off_failed = true; });
   add([](auto& c) { c.health.live_cameras = 0; });
   add([](auto& c) { c.health.transmitter_fault = true; });
+  add([](auto& c) {
+    c.health.transmitter_fault = true;
+    c.health.transmitter_ready = false;
+  });
   add([](auto& c) { c.health.position_sigma = 0.06; });
   add([](auto& c) { c.speed = 2.6; });
   return all;

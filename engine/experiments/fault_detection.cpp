@@ -129,9 +129,9 @@ std::vector<Detection> FaultDetection::result() const {
   std::vector<Detection> all;
   for (const Watched& w : watched_) {
     const bool detected = w.detected_s >= 0.0;
-    if (!w.counts || (!detected && !wasWatchedForLong(w))) continue;
-    const double from_s = w.detected_s < w.used_from_s ? w.fault.from_s : w.used_from_s;
-    all.push_back({w.fault.kind, detected ? w.detected_s - from_s : std::numeric_limits<double>::infinity()});
+    const bool too_early_to_count = detected && w.detected_s < w.used_from_s;
+    if (!w.counts || too_early_to_count || (!detected && !wasWatchedForLong(w))) continue;
+    all.push_back({w.fault.kind, detected ? w.detected_s - w.used_from_s : std::numeric_limits<double>::infinity()});
   }
   return all;
 }

@@ -42,7 +42,6 @@ void leaveReport(const FaultStudy& study) {
   std::ofstream(folder / "faults.json") << report.dump(2) << "\n";
 }
 
-/// Where it stands, that it may not get worse: the aim is none of any of them.
 TEST(FaultCampaign, OfAThousandFlights) {
   const RigConfig rig = loadRig(resourceFolder() / "rigs" / "calibrated.toml");
   FlightPlan plan = loadPlan(planPath("hover"));
@@ -51,7 +50,7 @@ TEST(FaultCampaign, OfAThousandFlights) {
   leaveReport(study);
   EXPECT_TRUE(study.bad_armings.empty());
   EXPECT_TRUE(study.breaches.empty());
-  EXPECT_LE(study.hard_landings.size(), 2u);
+  EXPECT_TRUE(study.hard_landings.empty());
 }
 
 }  // namespace

@@ -65,6 +65,15 @@ constexpr int kBytesPerCell = L == CellLayout::kBytes     ? 1
                               : L == CellLayout::kTriples ? 3
                                                           : 2;
 
+template <CellLayout L>
+constexpr bool kHasQuads = L == CellLayout::kQuadsColourFirst || L == CellLayout::kQuadsGreenFirst;
+
+/// Bytes that are fetched for a word, and how far before they are needed: memory answers after the time that
+/// so many take to test.
+template <CellLayout L>
+constexpr int kFetched = 64 * kBytesPerCell<L> * (kHasQuads<L> ? 2 : 1);
+constexpr int kBytesAhead = 4096;
+
 /// The bytes of a word: 0 where a cell begins, 255 elsewhere.
 template <CellLayout L>
 struct BetweenCells {
@@ -138,6 +147,7 @@ class OuterBounds {
   explicit OuterBounds(const ColourBounds& b)
       : special_(b.special),
         lead_(broadcast(b.lead)),
+        chroma_(broadcast(b.chroma)),
         value_low_(broadcast(b.value_low)),
         darkest_at_most_(b.darkest_at_most),
         darkest_at_least_(b.darkest_at_least) {}
@@ -157,10 +167,13 @@ class OuterBounds {
 
  private:
   HWY_INLINE Bytes firstTest(Bytes special, Bytes a, Bytes b) const {
+    const Bytes more = hn::Max(a, b), less = hn::Min(a, b);
     if constexpr (S == Shape::kDominant)
-      return hn::SaturatedSub(hn::Max(a, b), hn::SaturatedSub(special, lead_));
+      return hn::Or(hn::SaturatedSub(more, hn::SaturatedSub(special, lead_)),
+                    hn::SaturatedSub(less, hn::SaturatedSub(special, chroma_)));
     else
-      return hn::SaturatedSub(hn::SaturatedAdd(special, lead_), hn::Min(a, b));
+      return hn::Or(hn::SaturatedSub(hn::SaturatedAdd(special, lead_), less),
+                    hn::SaturatedSub(hn::SaturatedAdd(special, chroma_), more));
   }
 
   HWY_INLINE hn::Mask<Tag> test(Bytes special, Bytes a, Bytes b) const {
@@ -182,7 +195,7 @@ class OuterBounds {
   }
 
   int special_;
-  Bytes lead_, value_low_;
+  Bytes lead_, chroma_, value_low_;
   Line darkest_at_most_, darkest_at_least_;
 };
 
@@ -493,27 +506,40 @@ struct FindInRows {
   template <CellLayout L, class Refiner>
   HWY_INLINE void operator()(const Refiner& refiner) {
     CellWord* out = found;
+    const int rows_ahead = 1 + kBytesAhead / (kFetched<L> * (end_word - first_word));
+    int ahead = rows.first;
+    for (int i = 0; i < rows_ahead; ++i, ahead = rows.after(ahead)) fetchRow<L>(ahead);
     for (int y = rows.first; y <= rows.end; y = rows.after(y)) {
-      out = findInRow<L>(refiner, y, out);
+      out = findInRow<L>(refiner, y, ahead, out);
+      ahead = rows.after(ahead);
       if (out - found > most || y == rows.last) break;
     }
     count = static_cast<int>(out - found);
   }
 
+  template <CellLayout L>
+  HWY_INLINE void fetchWord(const std::uint8_t* cells) const {
+    for (int byte = 0; byte < WordCells<L>::kWordBytes; byte += 64) {
+      hwy::Prefetch(cells + byte);
+      if constexpr (kHasQuads<L>) hwy::Prefetch(cells + grid.second_row + byte);
+    }
+  }
+
+  template <CellLayout L>
+  HWY_INLINE void fetchRow(int y) const {
+    for (int w = first_word; w < end_word; ++w) fetchWord<L>(grid.row(y) + w * WordCells<L>::kWordBytes);
+  }
+
   template <CellLayout L, class Refiner>
-  HWY_INLINE CellWord* findInRow(const Refiner& refiner, int y, CellWord* out) const {
+  HWY_INLINE CellWord* findInRow(const Refiner& refiner, int y, int row_ahead, CellWord* out) const {
     constexpr int kWordBytes = WordCells<L>::kWordBytes;
     const std::uint8_t* row = grid.row(y);
-    const std::uint8_t* ahead = grid.row(rows.after(y));
+    const std::uint8_t* ahead = grid.row(row_ahead);
     const int whole_words = std::min(end_word, grid.width / 64);
     // Those behind which there are bytes.
     const int inner_words = y + 1 < grid.height || grid.width % 64 != 0 ? whole_words : whole_words - 1;
     for (int w = first_word; w < whole_words; ++w) {
-      for (int byte = 0; byte < kWordBytes; byte += 64) {
-        hwy::Prefetch(ahead + w * kWordBytes + byte);
-        if constexpr (L == CellLayout::kQuadsColourFirst || L == CellLayout::kQuadsGreenFirst)
-          hwy::Prefetch(ahead + grid.second_row + w * kWordBytes + byte);
-      }
+      fetchWord<L>(ahead + w * kWordBytes);
       const std::uint8_t* cells = row + w * kWordBytes;
       const Place place{cells, cells + grid.second_row};
       if (w < inner_words && HWY_LIKELY(refiner.holdsNone(place))) continue;

@@ -15,6 +15,7 @@ struct Extremes {
   std::array<int, 256> darkest_most{};          ///< by brightest value; -1: no such colour
   std::array<int, 256> darkest_least{};
   int value_low = 255;
+  int chroma = 255;  ///< least of brightest less darkest value
 
   Extremes() { darkest_most.fill(-1), darkest_least.fill(256); }
   void include(const std::array<int, 3>& c);
@@ -31,6 +32,7 @@ void Extremes::include(const std::array<int, 3>& c) {
   darkest_most[v] = std::max(darkest_most[v], low);
   darkest_least[v] = std::min(darkest_least[v], low);
   value_low = std::min(value_low, high);
+  chroma = std::min(chroma, high - low);
 }
 
 Extremes extremesOf(const ColourClass& colours) {
@@ -142,6 +144,7 @@ ColourBounds deriveBounds(const ColourClass& colours, const ColourRange& options
   const auto recessive = std::max_element(extremes.recession.begin(), extremes.recession.end());
   ColourBounds bounds;
   bounds.value_low = static_cast<std::uint8_t>(extremes.value_low);
+  bounds.chroma = static_cast<std::uint8_t>(extremes.chroma);
   bounds.darkest_at_most = lineAbove(extremes.darkest_most);
   bounds.darkest_at_least = lineBelow(extremes.darkest_least);
   if (*dominant >= 0) {

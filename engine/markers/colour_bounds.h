@@ -30,6 +30,7 @@ struct ColourBounds {
   Shape shape = Shape::kAny;
   std::uint8_t special = 1;
   std::uint8_t lead = 0;
+  std::uint8_t chroma = 0;  ///< v - m >= chroma
   std::uint8_t value_low = 0;
   ByteLine darkest_at_most;  ///< m <= line(v)
   ByteLine darkest_at_least{0, 0};

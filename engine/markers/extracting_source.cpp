@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/base/clock.h"
 #include "engine/markers/sphere_image.h"
 
 namespace helical {
@@ -25,7 +26,9 @@ bool ExtractingSource::poll(Observation& observation) {
   observation.exposure = frame.exposure;
   observation.arrival = frame.arrival;
   if (orders_) orders_->carryOut(extractor_);
+  const TimeNs start = threadCpuTime();
   extractor_.extract(frame.image, observation);
+  observation.extraction = threadCpuTime() - start;
   if (lens_) moveToBallCentres(*lens_, observation);
   if (on_frame_) on_frame_(frame, observation, extractor_);
   return true;

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/clock.h"
 #include "engine/markers/background_model.h"
 #include "engine/markers/binary_mask.h"
 #include "engine/markers/disc_fit.h"
@@ -198,7 +197,6 @@ bool Extractor::readWhole() const {
 }
 
 void Extractor::extract(const ImageView& image, Observation& observation) {
-  const TimeNs start = threadCpuTime();
   Workspace& work = *workspace_;
   work.resize(image);
   work.background.update(image);
@@ -208,7 +206,6 @@ void Extractor::extract(const ImageView& image, Observation& observation) {
     work.findMarkers(image, observation);
     work.adaptBackground(image);
   }
-  observation.extraction = threadCpuTime() - start;
 }
 
 }  // namespace helical

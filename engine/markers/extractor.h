@@ -49,7 +49,7 @@ class Extractor {
   /// Whether the last frame was read as a whole.
   bool readWhole() const;
 
-  /// Fills `observation`'s centroids, count, truncated and extraction time; largest regions first.
+  /// Fills `observation`'s centroids, count and truncated; largest regions first.
   /// Its exposure is the frame's.
   void extract(const ImageView& image, Observation& observation);
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "engine/base/clock.h"
 #include "engine/markers/colour_range.h"
 #include "engine/markers/region_selection.h"
 
@@ -96,7 +95,6 @@ ReferenceExtractor::ReferenceExtractor(const MarkerOptions& options)
 }
 
 void ReferenceExtractor::extract(const ImageView& image, Observation& observation) {
-  const TimeNs start = threadCpuTime();
   background_.update(image);
   observation.count = 0;
   observation.truncated = false;
@@ -114,7 +112,6 @@ void ReferenceExtractor::extract(const ImageView& image, Observation& observatio
           binaryCentroid(region, grid, options_.centroid_sigma_px);
     observation.truncated = selection.truncated();
   }
-  observation.extraction = threadCpuTime() - start;
 }
 
 }  // namespace helical

@@ -213,7 +213,7 @@ TEST(ColourBounds, HoldForEveryColour) {
                            special <= b.inner_value_high && darkest <= b.inner_darkest_at_most.of(special) &&
                            x - y <= b.inner_a_over_b.of(special - darkest) &&
                            y - x <= b.inner_b_over_a.of(special - darkest);
-        bool outer = brightest >= b.value_low && darkest <= b.darkest_at_most.of(brightest);
+        bool outer = brightest >= b.value_low && brightest - darkest >= b.chroma && darkest <= b.darkest_at_most.of(brightest);
         if (b.shape == ColourBounds::Shape::kDominant) outer &= std::max(x, y) <= special - b.lead;
         if (b.shape == ColourBounds::Shape::kRecessive) outer &= std::min(x, y) >= special + b.lead;
         if (b.shape == ColourBounds::Shape::kAny) outer &= darkest >= b.darkest_at_least.of(brightest);

@@ -19,8 +19,7 @@ struct WordRect {
   bool overlaps(const WordRect& other) const;
 };
 
-/// One bit a cell, 64 to a word. Morphology works on whole words, inside of a rectangle. Allocates in
-/// `resize` only.
+/// One bit a cell, 64 to a word. Allocates in `resize` only.
 class BinaryMask {
  public:
   void resize(int width, int height);
@@ -36,21 +35,11 @@ class BinaryMask {
   WordRect clip(const WordRect& rect) const;
   void clear(const WordRect& rect);
 
-  /// Sets the rectangle (inside of the mask) to the erosion or dilation of `source` with a square of side 2
-  /// `reach` + 1, `reach` at most 7. As in OpenCV, cells outside of the image never decide: they count as set
-  /// for the erosion, as unset for the dilation. What `source` holds outside of the rectangle counts as
-  /// unset.
-  void erode(const BinaryMask& source, int reach, const WordRect& rect);
-  void dilate(const BinaryMask& source, int reach, const WordRect& rect);
-
  private:
-  std::uint64_t lastWordMask() const;
-
   int width_ = 0;
   int height_ = 0;
   int words_ = 0;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint64_t> line_;  ///< one row after the vertical pass, a word of border on both sides
 };
 
 }  // namespace helical

@@ -332,14 +332,9 @@ class ColourRefiner {
   HWY_INLINE std::uint64_t classifyFull(int y, int word) const {
     const WordCells<L> cells(grid_, y, word);
     const std::uint64_t used = cellsOfWord(grid_, word);
-    if (background_ == nullptr)
-      return decide(cells.place(), used, [](const Colours&, std::size_t, auto may) HWY_ATTR { return may; });
+    if (background_ == nullptr) return decide(cells.place(), used);
     const WordCells<L> behind(*background_, y, word);
-    const Bytes threshold = broadcast(threshold_);
-    return decide(cells.place(), used, [&](const Colours& c, std::size_t k, auto may) HWY_ATTR {
-      const Colours b = loadColours<L>(behind.place(), k);
-      return hn::And(may, hn::Ne(hn::SaturatedSub(largestDifference(c, b), threshold), hn::Zero(Tag())));
-    });
+    return decide(cells.place(), used & differing(cells.place(), behind.place()));
   }
 
   HWY_INLINE std::uint64_t refine(int y, int word, std::uint64_t bits) const {
@@ -358,19 +353,14 @@ class ColourRefiner {
     return (bits & sure) | lookUp(place, bits & ~sure);
   }
 
-  /// `further` takes a vector's colours, its first cell and those that may be of the class, and gives those
-  /// of them that still may.
-  template <class Further>
-  HWY_INLINE std::uint64_t decide(const Place& place, std::uint64_t used, Further further) const {
+  /// Which of these cells are of the class, by vectors: most of them for certain.
+  HWY_INLINE std::uint64_t decide(const Place& place, std::uint64_t bits) const {
+    if (bits == 0) return 0;
     const std::size_t lanes = hn::Lanes(Tag());
-    std::uint64_t bits = 0, sure = 0;
-    for (std::size_t k = 0; k < 64; k += lanes) {
-      const Colours c = loadColours<L>(place, k);
-      bits |= bitsOf(further(c, k, outer_.mayHold(c))) << k;
-      sure |= inner_.surelyHold(c) << k;
-    }
-    bits &= used;
-    return (bits & sure) | lookUp(place, bits & ~sure);
+    std::uint64_t sure = 0;
+    for (std::size_t k = 0; k < 64; k += lanes) sure |= inner_.surelyHold(loadColours<L>(place, k)) << k;
+    const std::uint64_t open = bits & ~sure;
+    return (bits & sure) | (open == 0 ? 0 : lookUp(place, open & candidates(place)));
   }
 
   HWY_INLINE std::uint64_t lookUp(const Place& place, std::uint64_t bits) const {
@@ -404,11 +394,15 @@ class ColourRefiner {
 
   HWY_INLINE std::uint64_t foreground(const Place& place, int y, int word) const {
     const WordCells<L> behind(*background_, y, word);
+    return differing(place, behind.place());
+  }
+
+  HWY_INLINE std::uint64_t differing(const Place& place, const Place& behind) const {
     const Bytes threshold = broadcast(threshold_);
     const std::size_t lanes = hn::Lanes(Tag());
     std::uint64_t bits = 0;
     for (std::size_t k = 0; k < 64; k += lanes) {
-      const Colours c = loadColours<L>(place, k), b = loadColours<L>(behind.place(), k);
+      const Colours c = loadColours<L>(place, k), b = loadColours<L>(behind, k);
       const Bytes most = largestDifference(c, b);
       bits |= bitsOf(hn::Ne(hn::SaturatedSub(most, threshold), hn::Zero(Tag()))) << k;
     }
@@ -582,10 +576,10 @@ void classifySome(const CellGrid& grid, const CellGrid* background, const CellRu
 }
 
 void classifyAll(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-                 std::uint64_t* words) {
+                 std::uint64_t* words, std::ptrdiff_t stride) {
   withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
     for (int y = 0; y < grid.height; ++y)
-      for (int w = 0; w * 64 < grid.width; ++w) *words++ = refiner.classifyFull(y, w);
+      for (int w = 0; w * 64 < grid.width; ++w) words[w * stride + y] = refiner.classifyFull(y, w);
   });
 }
 
@@ -622,8 +616,8 @@ void classifyWords(const CellGrid& grid, const CellGrid* background, const CellR
 }
 
 void classifyGrid(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-                  std::uint64_t* words) {
-  HWY_DYNAMIC_DISPATCH(classifyAll)(grid, background, rule, words);
+                  std::uint64_t* words, std::ptrdiff_t stride) {
+  HWY_DYNAMIC_DISPATCH(classifyAll)(grid, background, rule, words, stride);
 }
 
 std::string instructionSet() {

@@ -55,9 +55,9 @@ void refineCandidates(const CellGrid& grid, const CellGrid* background, const Ce
 void classifyWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
                    std::span<CellWord> words);
 
-/// Exact bits of the whole grid, row after row.
+/// Exact bits of the whole grid: each word's next row behind it, its next word `stride` on.
 void classifyGrid(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-                  std::uint64_t* words);
+                  std::uint64_t* words, std::ptrdiff_t stride);
 
 /// The instruction set in use, and those that this machine has, best first, as Highway names them.
 std::string instructionSet();

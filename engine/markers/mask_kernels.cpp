@@ -13,39 +13,62 @@ namespace helical {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<std::uint64_t, 8>;
+using Words = hn::Vec<Tag>;
 
-/// One vector of `D`, or the last words one by one.
-template <bool kErode, class D>
-HWY_INLINE void spread(D d, const std::uint64_t* line, int reach, std::uint64_t* out) {
-  const auto here = hn::LoadU(d, line), before = hn::LoadU(d, line - 1), after = hn::LoadU(d, line + 1);
-  auto result = here;
-  for (int s = 1; s <= reach; ++s) {
-    const auto from_left = hn::Or(hn::ShiftLeftSame(here, s), hn::ShiftRightSame(before, 64 - s));
-    const auto from_right = hn::Or(hn::ShiftRightSame(here, s), hn::ShiftLeftSame(after, 64 - s));
-    if constexpr (kErode)
-      result = hn::And(result, hn::And(from_left, from_right));
-    else
-      result = hn::Or(result, hn::Or(from_left, from_right));
-  }
-  hn::StoreU(result, d, out);
+template <bool kErode>
+HWY_INLINE Words merged(Words a, Words b) {
+  return kErode ? hn::And(a, b) : hn::Or(a, b);
+}
+
+/// Of the words of one column in as many rows as a vector has lanes, each with the rows around it.
+template <bool kErode>
+HWY_INLINE Words alongColumn(const std::uint64_t* word, int reach) {
+  const Tag d;
+  Words result = hn::LoadU(d, word);
+  for (int s = 1; s <= reach; ++s)
+    result = merged<kErode>(result, merged<kErode>(hn::LoadU(d, word - s), hn::LoadU(d, word + s)));
+  return result;
 }
 
 template <bool kErode>
-HWY_INLINE void spreadLine(const std::uint64_t* line, int count, int reach, std::uint64_t* out) {
-  const hn::CappedTag<std::uint64_t, 8> d;
-  const hn::CappedTag<std::uint64_t, 1> one;
-  const int step = static_cast<int>(hn::Lanes(d));
-  int w = 0;
-  for (; w + step <= count; w += step) spread<kErode>(d, line + w, reach, out + w);
-  for (; w < count; ++w) spread<kErode>(one, line + w, reach, out + w);
+HWY_INLINE Words alongRow(Words before, Words here, Words after, int reach) {
+  Words result = here;
+  for (int s = 1; s <= reach; ++s) {
+    const Words from_left = hn::Or(hn::ShiftLeftSame(here, s), hn::ShiftRightSame(before, 64 - s));
+    const Words from_right = hn::Or(hn::ShiftRightSame(here, s), hn::ShiftLeftSame(after, 64 - s));
+    result = merged<kErode>(result, merged<kErode>(from_left, from_right));
+  }
+  return result;
 }
 
-void erode(const std::uint64_t* line, int count, int reach, std::uint64_t* out) {
-  spreadLine<true>(line, count, reach, out);
+template <bool kErode>
+HWY_INLINE void spread(const MaskStep& step) {
+  const Tag d;
+  const int last = step.columns - 1;
+  const Words outside = hn::Set(d, step.outside);
+  const auto column = [&](int c, int y) HWY_ATTR {
+    const Words words = alongColumn<kErode>(step.in + c * step.stride + y, step.reach);
+    return kErode && c == last ? hn::Or(words, outside) : words;
+  };
+  for (int y = 0; y < step.rows; y += static_cast<int>(hn::Lanes(d))) {
+    Words before = hn::Set(d, step.before), here = column(0, y);
+    for (int c = 0; c <= last; ++c) {
+      const Words after = c < last ? column(c + 1, y) : hn::Set(d, step.after);
+      const Words words = alongRow<kErode>(before, here, after, step.reach);
+      hn::StoreU(c == last ? hn::AndNot(outside, words) : words, d, step.out + c * step.stride + y);
+      before = here;
+      here = after;
+    }
+  }
 }
 
-void dilate(const std::uint64_t* line, int count, int reach, std::uint64_t* out) {
-  spreadLine<false>(line, count, reach, out);
+void erode(const MaskStep& step) {
+  spread<true>(step);
+}
+
+void dilate(const MaskStep& step) {
+  spread<false>(step);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -58,12 +81,12 @@ namespace helical {
 HWY_EXPORT(erode);
 HWY_EXPORT(dilate);
 
-void erodeLine(const std::uint64_t* line, int count, int reach, std::uint64_t* out) {
-  HWY_DYNAMIC_DISPATCH(erode)(line, count, reach, out);
+void erodeColumns(const MaskStep& step) {
+  HWY_DYNAMIC_DISPATCH(erode)(step);
 }
 
-void dilateLine(const std::uint64_t* line, int count, int reach, std::uint64_t* out) {
-  HWY_DYNAMIC_DISPATCH(dilate)(line, count, reach, out);
+void dilateColumns(const MaskStep& step) {
+  HWY_DYNAMIC_DISPATCH(dilate)(step);
 }
 
 }  // namespace helical

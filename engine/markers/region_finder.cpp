@@ -12,9 +12,9 @@ constexpr int kDenseShare = 4;
 }  // namespace
 
 void RegionFinder::resize(int width, int height) {
-  first_.resize(width, height);
-  second_.resize(width, height);
-  const auto words = static_cast<std::size_t>(first_.wordsPerRow()) * static_cast<std::size_t>(height);
+  mask_.resize(width, height);
+  tile_.resize(width, height);
+  const auto words = static_cast<std::size_t>(mask_.wordsPerRow()) * static_cast<std::size_t>(height);
   hits_.resize(words);
   around_.resize(words);
   is_known_.assign(words, 0);
@@ -25,7 +25,7 @@ void RegionFinder::resize(int width, int height) {
 std::span<Region> RegionFinder::find(const CellGrid& frame, const CellGrid* background, const CellRule& rule,
                                      const BinaryMask* ignored, BinaryMask* mask,
                                      std::span<const WordRect> windows) {
-  const WordRect everywhere = first_.everywhere();
+  const WordRect everywhere = mask_.everywhere();
   const Task task{frame,   background, rule,
                   ignored, mask,       windows.empty() ? std::span(&everywhere, 1) : windows};
   labeller_.clear();
@@ -49,12 +49,18 @@ bool RegionFinder::findSparsely(const Task& task) {
   const std::span around(around_.data(), around_count_);
   classifyWords(task.frame, task.background, task.rule, around);
   store(task, around);
-  for (const WordRect& island : islands_) finish(task, first_.clip(island.grown(closing_reach_, 1)));
+  for (const WordRect& island : islands_) {
+    tile_.place(mask_.clip(island.grown(closing_reach_, 1)));
+    const WordRect& rect = tile_.rect();
+    for (int w = rect.left; w <= rect.right; ++w)
+      for (int y = rect.top; y <= rect.bottom; ++y) tile_.column(w)[y - rect.top] = mask_.row(y)[w];
+    finish(task);
+  }
   return true;
 }
 
 bool RegionFinder::scanRows(const Task& task, const WordRect& window) {
-  const int words = first_.wordsPerRow(), height = first_.height(), step = 2 * opening_reach_ + 1;
+  const int words = mask_.wordsPerRow(), height = mask_.height(), step = 2 * opening_reach_ + 1;
   const int last = std::max(0, height - 1 - opening_reach_);
   const int most = words * (height / step + 1) / kDenseShare - static_cast<int>(hit_count_);
   ScannedRows rows{std::min(opening_reach_, last), step, last, window.bottom};
@@ -69,7 +75,7 @@ bool RegionFinder::scanRows(const Task& task, const WordRect& window) {
 void RegionFinder::fetchAround(const Task& task) const {
   const int reach = 2 * opening_reach_, bytes = 64 * task.frame.bytesPerCell();
   for (const CellWord& hit : std::span(hits_.data(), hit_count_))
-    for (int y = std::max(0, hit.row - reach); y <= std::min(first_.height() - 1, hit.row + reach); ++y)
+    for (int y = std::max(0, hit.row - reach); y <= std::min(mask_.height() - 1, hit.row + reach); ++y)
       for (int byte = 0; byte < bytes; byte += 64) {
         const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(hit.word) * bytes + byte;
         if (y != hit.row) __builtin_prefetch(task.frame.row(y) + place);
@@ -79,12 +85,12 @@ void RegionFinder::fetchAround(const Task& task) const {
 
 void RegionFinder::store(const Task& task, std::span<const CellWord> words) {
   for (const CellWord& word : words)
-    first_.row(word.row)[word.word] =
+    mask_.row(word.row)[word.word] =
         task.ignored == nullptr ? word.bits : word.bits & ~task.ignored->row(word.row)[word.word];
 }
 
 bool RegionFinder::expandHits() {
-  const auto words = static_cast<std::ptrdiff_t>(first_.wordsPerRow());
+  const auto words = static_cast<std::ptrdiff_t>(mask_.wordsPerRow());
   for (const CellWord& hit : std::span(hits_.data(), hit_count_))
     is_known_[static_cast<std::size_t>(hit.row * words + hit.word)] = 1;
   return std::all_of(hits_.begin(), hits_.begin() + static_cast<std::ptrdiff_t>(hit_count_),
@@ -92,15 +98,15 @@ bool RegionFinder::expandHits() {
 }
 
 std::uint64_t RegionFinder::runCentres(const CellWord& hit) const {
-  const std::uint64_t* row = first_.row(hit.row);
-  const int w = hit.word, last = first_.wordsPerRow() - 1;
+  const std::uint64_t* row = mask_.row(hit.row);
+  const int w = hit.word, last = mask_.wordsPerRow() - 1;
   constexpr std::uint64_t kAll = ~std::uint64_t{0};
-  const int used = w == last && first_.width() % 64 != 0 ? first_.width() % 64 : 64;
+  const int used = w == last && mask_.width() % 64 != 0 ? mask_.width() % 64 : 64;
   const std::uint64_t beyond = used == 64 ? 0 : kAll << used;
   const std::uint64_t here = row[w] | beyond;
   const std::uint64_t before = w == 0 ? kAll : row[w - 1];
   std::uint64_t after = w == last ? kAll : row[w + 1];
-  if (w + 1 == last && first_.width() % 64 != 0) after |= kAll << first_.width() % 64;
+  if (w + 1 == last && mask_.width() % 64 != 0) after |= kAll << mask_.width() % 64;
   std::uint64_t centres = here & ~beyond;
   for (int s = 1; s <= opening_reach_; ++s)
     centres &= (here << s | before >> (64 - s)) & (here >> s | after << (64 - s));
@@ -108,13 +114,13 @@ std::uint64_t RegionFinder::runCentres(const CellWord& hit) const {
 }
 
 bool RegionFinder::expand(const CellWord& hit) {
-  if (first_.row(hit.row)[hit.word] == 0) return true;
+  if (mask_.row(hit.row)[hit.word] == 0) return true;
   const std::uint64_t centres = runCentres(hit);
   if (centres == 0) return true;
-  const int words = first_.wordsPerRow();
+  const int words = mask_.wordsPerRow();
   const bool reaches_left = opening_reach_ > 0 && centres << (64 - opening_reach_) != 0;
   const bool reaches_right = opening_reach_ > 0 && centres >> (64 - opening_reach_) != 0;
-  const WordRect box = first_.clip({hit.row - 2 * opening_reach_, hit.row + 2 * opening_reach_,
+  const WordRect box = mask_.clip({hit.row - 2 * opening_reach_, hit.row + 2 * opening_reach_,
                                     hit.word - (reaches_left ? 1 : 0), hit.word + (reaches_right ? 1 : 0)});
   for (int y = box.top; y <= box.bottom; ++y)
     for (int w = box.left; w <= box.right; ++w) {
@@ -144,27 +150,21 @@ bool RegionFinder::addIsland(WordRect box) {
   return true;
 }
 
-void RegionFinder::finish(const Task& task, const WordRect& rect) {
-  if (opening_reach_ > 0) {
-    second_.erode(first_, opening_reach_, rect);
-    first_.dilate(second_, opening_reach_, rect);
-  }
-  if (closing_reach_ > 0) {
-    second_.dilate(first_, closing_reach_, rect);
-    first_.erode(second_, closing_reach_, rect);
-  }
-  labeller_.label(first_, rect);
-  if (task.mask != nullptr)
-    for (int y = rect.top; y <= rect.bottom; ++y)
-      std::copy(first_.row(y) + rect.left, first_.row(y) + rect.right + 1, task.mask->row(y) + rect.left);
-  first_.clear(rect);
+void RegionFinder::finish(const Task& task) {
+  tile_.open(opening_reach_);
+  tile_.close(closing_reach_);
+  labeller_.label(tile_);
+  if (task.mask == nullptr) return;
+  const WordRect& rect = tile_.rect();
+  for (int y = rect.top; y <= rect.bottom; ++y)
+    for (int w = rect.left; w <= rect.right; ++w) task.mask->row(y)[w] = tile_.column(w)[y - rect.top];
 }
 
 void RegionFinder::forget() {
-  const auto words = static_cast<std::size_t>(first_.wordsPerRow());
+  const auto words = static_cast<std::size_t>(mask_.wordsPerRow());
   const auto forgetAll = [&](std::span<const CellWord> list) {
     for (const CellWord& word : list) {
-      first_.row(word.row)[word.word] = 0;
+      mask_.row(word.row)[word.word] = 0;
       is_known_[static_cast<std::size_t>(word.row) * words + static_cast<std::size_t>(word.word)] = 0;
     }
   };
@@ -176,21 +176,12 @@ void RegionFinder::forget() {
 
 void RegionFinder::findDensely(const Task& task) {
   labeller_.clear();
-  const int words = first_.wordsPerRow();
-  int top = first_.height(), bottom = -1;
-  classifyGrid(task.frame, task.background, task.rule, first_.row(0));
-  for (int y = 0; y < first_.height(); ++y) {
-    std::uint64_t* row = first_.row(y);
-    std::uint64_t any = 0;
-    for (int w = 0; w < words; ++w) {
-      if (task.ignored != nullptr) row[w] &= ~task.ignored->row(y)[w];
-      any |= row[w];
-    }
-    if (any == 0) continue;
-    top = std::min(top, y);
-    bottom = y;
-  }
-  if (bottom >= top) finish(task, first_.clip(WordRect{top, bottom, 0, words - 1}.grown(closing_reach_, 0)));
+  tile_.place(mask_.everywhere());
+  classifyGrid(task.frame, task.background, task.rule, tile_.column(0), tile_.stride());
+  if (task.ignored != nullptr)
+    for (int w = 0; w < mask_.wordsPerRow(); ++w)
+      for (int y = 0; y < mask_.height(); ++y) tile_.column(w)[y] &= ~task.ignored->row(y)[w];
+  finish(task);
 }
 
 }  // namespace helical

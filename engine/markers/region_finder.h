@@ -6,6 +6,7 @@
 
 #include "engine/markers/binary_mask.h"
 #include "engine/markers/cell_kernels.h"
+#include "engine/markers/mask_tile.h"
 #include "engine/markers/region_labeller.h"
 
 namespace helical {
@@ -55,13 +56,13 @@ class RegionFinder {
   bool addIsland(WordRect box);
   std::uint64_t runCentres(const CellWord& hit) const;
   void store(const Task& task, std::span<const CellWord> words);
-  void finish(const Task& task, const WordRect& rect);
+  void finish(const Task& task);
   void forget();
 
   int opening_reach_;
   int closing_reach_;
-  BinaryMask first_;  ///< nothing set between calls
-  BinaryMask second_;
+  BinaryMask mask_;  ///< nothing set between calls
+  MaskTile tile_;
   std::vector<CellWord> hits_;          ///< words of the rows that were read which hold candidates
   std::vector<CellWord> around_;        ///< words around them
   std::vector<std::uint8_t> is_known_;  ///< by word: in one of these lists; nothing set between calls

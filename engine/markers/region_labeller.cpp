@@ -21,11 +21,11 @@ void RegionLabeller::clear() {
   regions_.clear();
 }
 
-void RegionLabeller::label(const BinaryMask& mask, const WordRect& part) {
+void RegionLabeller::label(const MaskTile& part) {
   current_.clear();
-  for (int y = part.top; y <= part.bottom; ++y) {
+  for (int y = part.rect().top; y <= part.rect().bottom; ++y) {
     std::swap(above_, current_);
-    findRuns(mask, y, part);
+    findRuns(part, y);
     joinRuns(y);
   }
 }
@@ -38,11 +38,15 @@ std::span<Region> RegionLabeller::regions() {
   return {regions_.data(), count};
 }
 
-void RegionLabeller::findRuns(const BinaryMask& mask, int y, const WordRect& part) {
+void RegionLabeller::findRuns(const MaskTile& part, int y) {
   current_.clear();
-  const std::uint64_t* words = mask.row(y);
-  for (int w = part.left; w <= part.right; ++w) {
-    std::uint64_t rest = words[w];
+  const std::uint64_t* word = part.column(part.rect().left) + (y - part.rect().top);
+  for (int w = part.rect().left; w <= part.rect().right; ++w, word += part.stride()) {
+    std::uint64_t rest = *word;
+    if (rest == ~std::uint64_t{0} && !current_.empty() && current_.back().last == 64 * w - 1) {
+      current_.back().last += 64;
+      continue;
+    }
     while (rest != 0) {
       const int start = std::countr_zero(rest);
       const int length = std::countr_one(rest >> start);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/markers/binary_mask.h"
+#include "engine/markers/mask_tile.h"
 
 namespace helical {
 
@@ -27,8 +27,8 @@ class RegionLabeller {
 
   /// Forgets all regions.
   void clear();
-  /// Adds those of one part of a mask; parts must not touch each other.
-  void label(const BinaryMask& mask, const WordRect& part);
+  /// Adds those of a part of the mask; parts must not touch each other.
+  void label(const MaskTile& part);
   /// All of them, in no particular order; valid until the next call of another function.
   std::span<Region> regions();
 
@@ -39,7 +39,7 @@ class RegionLabeller {
     int label;
   };
 
-  void findRuns(const BinaryMask& mask, int y, const WordRect& part);
+  void findRuns(const MaskTile& part, int y);
   void joinRuns(int y);
   int rootOf(int label);
   int unite(int a, int b);

@@ -31,6 +31,13 @@ constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle throug
 /// noise keeps the fit from settling.
 constexpr float kFlat = 0.15F;
 constexpr int kRays = 24;
+/// Second moments, longer over shorter: from the first on, what is no disc may be smeared; from the second on, what
+/// looks like a disc, too, which noise makes longish by no more; from the third on, nothing hides so much of a ball.
+constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25, kMostHidden = 4.0;
+/// The shorter axis' skewness over the root of the moments' excess: 0 of a smeared ball, 0.16 of one that something
+/// hides a tenth to a half of, from one side.
+constexpr double kMostSkew = 0.07;
+constexpr double kSmearSigma = 0.03;  ///< of the smear's length, measured with drawn balls
 
 /// The unknowns: those of the model, and of a second channel the ball's level over that of the first, and the
 /// level around it.
@@ -92,6 +99,7 @@ struct DiscFit::System {
 DiscFit::DiscFit() : colour_(std::make_unique<DiscCells>()), brightness_(std::make_unique<DiscCells>()) {}
 
 std::optional<Disc> DiscFit::fit(const CellGrid& grid, const Region& region) {
+  smear_.setZero();
   return readWindow(grid, region) ? fitWindow() : std::nullopt;
 }
 
@@ -149,7 +157,50 @@ ValueWindow DiscFit::window(const Region& region) {
     for (int x = 0; x < width_; ++x)
       if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1)
         sorted_[count++] = values_[static_cast<std::size_t>(y * width_ + x)];
-  return {values_.data(), width_, height_, 0.5F * (ball + median(std::span(sorted_.data(), count)))};
+  const float around = median(std::span(sorted_.data(), count));
+  contrast_ = 0.5 * static_cast<double>(ball - around);
+  return {values_.data(), width_, height_, 0.5F * (ball + around)};
+}
+
+bool DiscFit::isSmeared(double least) {
+  if (neighbour_) return false;
+  const ValueWindow values = window(region_);
+  // Shares of cells, from a quarter to three quarters of the ball's level: sharper than its outline, less noisy.
+  const auto shareOf = [&](std::size_t i) {
+    const double above = static_cast<double>(colour_->value[i] - values.level);
+    return std::clamp(0.5 + above / std::max(1.0, contrast_), 0.0, 1.0);
+  };
+  double sum = 0.0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < real_count_; ++i) {
+    sum += shareOf(i);
+    middle += shareOf(i) * Eigen::Vector2d(colour_->x[i], colour_->y[i]);
+  }
+  if (!(sum > 1.0)) return false;
+  middle /= sum;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < real_count_; ++i) {
+    const Eigen::Vector2d apart = Eigen::Vector2d(colour_->x[i], colour_->y[i]) - middle;
+    moments += shareOf(i) / sum * apart * apart.transpose();
+  }
+  const double mean = 0.5 * moments.trace(), half = 0.5 * (moments(0, 0) - moments(1, 1));
+  const double turn = std::sqrt(half * half + moments(0, 1) * moments(0, 1));
+  const double longer = mean + turn, shorter = mean - turn;
+  if (!(shorter > 0.0 && longer > least * shorter)) return false;
+  // Of the two forms of the eigenvector, that which does not cancel.
+  Eigen::Vector2d axis = half > 0.0 ? Eigen::Vector2d(half + turn, moments(0, 1))
+                                    : Eigen::Vector2d(moments(0, 1), turn - half);
+  axis.normalize();
+  double skew = 0.0;
+  for (std::size_t i = 0; i < real_count_; ++i) {
+    const double across = axis.x() * (colour_->y[i] - middle.y()) - axis.y() * (colour_->x[i] - middle.x());
+    skew += shareOf(i) / sum * across * across * across;
+  }
+  const double excess = longer / shorter - 1.0, limit = kMostSkew * kMostSkew * excess;
+  if (excess < kMostHidden - 1.0 && skew * skew > limit * shorter * shorter * shorter) return false;
+  const double length_squared = 12.0 * (longer - shorter);
+  smear_ = kSmearSigma * kSmearSigma * length_squared * axis * axis.transpose();
+  return true;
 }
 
 float DiscFit::givenAt(double x, double y) const {
@@ -160,11 +211,13 @@ float DiscFit::givenAt(double x, double y) const {
 }
 
 std::optional<Disc> DiscFit::fitColour() {
+  if (isSmeared(kSurelySmeared)) return std::nullopt;
   start(binary_);
   std::array<OutlinePoint, kRays> room;
   const std::span outline(room.data(), static_cast<std::size_t>(traceOutline(room)));
   if (descend(kSteps) && isPlausible() && fitsEverywhere())
     if (const auto disc = result()) return disc;
+  if (isSmeared(kLeastSmear)) return std::nullopt;
   start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
     leaveOutHidden();
@@ -187,6 +240,7 @@ bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
   width_ = std::min(grid.width - 1, region.right + kMargin) - left_ + 1;
   height_ = std::min(grid.height - 1, region.bottom + kMargin) - top_ + 1;
   if (width_ < 2 || height_ < 2 || width_ > kLargestSide || height_ > kLargestSide) return false;
+  region_ = region;
   const auto area = static_cast<double>(region.area);
   binary_ = {
       {static_cast<double>(region.sum_x) / area - left_, static_cast<double>(region.sum_y) / area - top_},

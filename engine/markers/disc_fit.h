@@ -36,8 +36,11 @@ class DiscFit {
  public:
   DiscFit();
 
-  /// Nothing if the region is too large for the workspace, or nothing that looks like a ball.
+  /// Nothing if the region is too large for the workspace, or nothing that looks like a ball; or if it is longish
+  /// and alike on both sides, as a ball smeared by its motion is: its centre of gravity is the better estimate.
   std::optional<Disc> fit(const CellGrid& grid, const Region& region);
+  /// Of the last region fitted: what its smear adds to the covariance of its centre of gravity, in cells.
+  const Eigen::Matrix2d& smear() const { return smear_; }
   /// The discs of two balls that touch or overlap; nothing if the region does not look like that. Each is
   /// fitted without the cells that are the other's, too.
   std::optional<std::array<Disc, 2>> fitTwo(const CellGrid& grid, const Region& region);
@@ -53,6 +56,7 @@ class DiscFit {
   void start(const OutlineCircle& circle);
   Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
   ValueWindow window(const Region& region);
+  bool isSmeared(double least);
   float givenAt(double x, double y) const;
   std::optional<Disc> fitWindow();
   std::optional<Disc> fitColour();
@@ -79,6 +83,9 @@ class DiscFit {
   int top_ = 0;
   int width_ = 0;
   int height_ = 0;
+  double contrast_ = 0.0;  ///< half of what the window's ball is above what is around it
+  Eigen::Matrix2d smear_ = Eigen::Matrix2d::Zero();
+  Region region_;
   OutlineCircle binary_{};  ///< of the region; like the parameters from the window's corner on
   std::optional<OutlineCircle> neighbour_;
   bool has_colour_ = false;

@@ -138,6 +138,9 @@ void Extractor::Workspace::locate(const ColouredRegion& region, const CellGrid& 
     }
     if (const auto disc = disc_fit.fit(grid, region.region))
       return add(discCentroid(region, *disc, grid), observation);
+    Centroid centroid = binaryCentroid(region, grid, options.centroid_sigma_px);
+    centroid.covariance += cellSize(grid) * cellSize(grid) * disc_fit.smear();
+    return add(centroid, observation);
   }
   add(binaryCentroid(region, grid, options.centroid_sigma_px), observation);
 }

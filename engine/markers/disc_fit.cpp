@@ -31,12 +31,15 @@ constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle throug
 /// noise keeps the fit from settling.
 constexpr float kFlat = 0.15F;
 constexpr int kRays = 24;
-/// Second moments, longer over shorter: from the first on, what is no disc may be smeared; from the second on, what
-/// looks like a disc, too, which noise makes longish by no more; from the third on, nothing hides so much of a ball.
+/// Second moments, longer over shorter: from the first on, what is no disc may be smeared; from the second
+/// on, what looks like a disc, too, which noise makes longish by no more; from the third on, nothing hides so
+/// much of a ball.
 constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25, kMostHidden = 4.0;
-/// The shorter axis' skewness over the root of the moments' excess: 0 of a smeared ball, 0.16 of one that something
-/// hides a tenth to a half of, from one side.
+/// The shorter axis' skewness over the root of the moments' excess: 0 of a smeared ball, 0.16 of one that
+/// something hides a tenth to a half of, from one side.
 constexpr double kMostSkew = 0.07;
+/// Cells of a region: fewer say too little of which of its sides are alike.
+constexpr std::int64_t kFewestSmeared = 40;
 constexpr double kSmearSigma = 0.03;  ///< of the smear's length, measured with drawn balls
 
 /// The unknowns: those of the model, and of a second channel the ball's level over that of the first, and the
@@ -163,9 +166,10 @@ ValueWindow DiscFit::window(const Region& region) {
 }
 
 bool DiscFit::isSmeared(double least) {
-  if (neighbour_) return false;
+  if (neighbour_ || region_.area < kFewestSmeared) return false;
   const ValueWindow values = window(region_);
-  // Shares of cells, from a quarter to three quarters of the ball's level: sharper than its outline, less noisy.
+  // Shares of cells, from a quarter to three quarters of the ball's level: sharper than its outline, less
+  // noisy.
   const auto shareOf = [&](std::size_t i) {
     const double above = static_cast<double>(colour_->value[i] - values.level);
     return std::clamp(0.5 + above / std::max(1.0, contrast_), 0.0, 1.0);
@@ -188,8 +192,8 @@ bool DiscFit::isSmeared(double least) {
   const double longer = mean + turn, shorter = mean - turn;
   if (!(shorter > 0.0 && longer > least * shorter)) return false;
   // Of the two forms of the eigenvector, that which does not cancel.
-  Eigen::Vector2d axis = half > 0.0 ? Eigen::Vector2d(half + turn, moments(0, 1))
-                                    : Eigen::Vector2d(moments(0, 1), turn - half);
+  Eigen::Vector2d axis =
+      half > 0.0 ? Eigen::Vector2d(half + turn, moments(0, 1)) : Eigen::Vector2d(moments(0, 1), turn - half);
   axis.normalize();
   double skew = 0.0;
   for (std::size_t i = 0; i < real_count_; ++i) {

@@ -36,8 +36,9 @@ class DiscFit {
  public:
   DiscFit();
 
-  /// Nothing if the region is too large for the workspace, or nothing that looks like a ball; or if it is longish
-  /// and alike on both sides, as a ball smeared by its motion is: its centre of gravity is the better estimate.
+  /// Nothing if the region is too large for the workspace, or nothing that looks like a ball; or if it is
+  /// longish and alike on both sides, as a ball smeared by its motion is: its centre of gravity is the better
+  /// estimate.
   std::optional<Disc> fit(const CellGrid& grid, const Region& region);
   /// Of the last region fitted: what its smear adds to the covariance of its centre of gravity, in cells.
   const Eigen::Matrix2d& smear() const { return smear_; }

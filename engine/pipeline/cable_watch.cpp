@@ -10,25 +10,25 @@
 namespace helical {
 namespace {
 
-constexpr int kOddFrames = 4;       // in a row, before a camera counts as one that disagrees
+constexpr int kOddFrames = 4;  // in a row, before a camera counts as one that disagrees
 constexpr int kTriesForAChange = 3;
 constexpr int kTriesToComeBack = 10;
-constexpr int kEager = 180;         // frames, each with a try; then every sixth has one
+constexpr int kEager = 180;  // frames, each with a try; then every sixth has one
 constexpr int kSeldom = 6;
-constexpr int kFewestWitnesses = 2; // cameras that show what the pose says
-constexpr int kFewestBalls = 3;     // that a camera must show to say anything
-constexpr int kAgreeing = 2;        // balls in place; a camera with fewer disagrees
-constexpr double kNearPx = 4.0;     // a ball is where a pose says
-constexpr double kWellPx = 1.5;     // of a fit: frames are up to a frame apart
+constexpr int kFewestWitnesses = 2;    // cameras that show what the pose says
+constexpr int kFewestBalls = 3;        // that a camera must show to say anything
+constexpr int kAgreeing = 2;           // balls in place; a camera with fewer disagrees
+constexpr double kNearPx = 4.0;        // a ball is where a pose says
+constexpr double kWellPx = 1.5;        // of a fit: frames are up to a frame apart
 constexpr double kClearlyWorse = 2.0;  // times another misfit
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr TimeNs kNow = 50 * kNanosecondsPerMillisecond;
 constexpr double kAstrayM = 0.7;
-constexpr double kYawSigma = 0.5;   // rad: of a layout that looks the same from other sides, the nearest
-constexpr double kForeseen = 0.3;   // s, over which the tracker's prediction says where to search
+constexpr double kYawSigma = 0.5;  // rad: of a layout that looks the same from other sides, the nearest
+constexpr double kForeseen = 0.3;  // s, over which the tracker's prediction says where to search
 
-/// Near where the tracker believes it to be, turned any way: what it saw last may have been a camera that shows what
-/// another one should.
+/// Near where the tracker believes it to be, turned any way: what it saw last may have been a camera that
+/// shows what another one should.
 PosePrior priorFor(TimeNs now, const Tracker& tracker, bool airborne, double standing_height) {
   PosePrior prior;
   prior.world_from_body.translation.z() = standing_height;
@@ -74,8 +74,8 @@ void CableWatch::nextPair(const Moment& moment) {
   }
 }
 
-bool CableWatch::showsBallsOf(const RigidTransform& world_from_body, std::size_t camera, const CameraEstimate& place,
-                              const Observation& shown) const {
+bool CableWatch::showsBallsOf(const RigidTransform& world_from_body, std::size_t camera,
+                              const CameraEstimate& place, const Observation& shown) const {
   int near = 0;
   for (const Eigen::Vector3d& marker : markers_.all()) {
     const auto pixel = cameras_[camera].project(place.camera_from_world * (world_from_body * marker));
@@ -102,8 +102,9 @@ double CableWatch::misfit(std::size_t a, std::size_t b, bool changed, const Mome
     shown.camera = cameraId(static_cast<int>(i));
     acquisition_.add(shown);
   }
-  const auto fit = acquisition_.attempt(moment.now, {estimates.data(), count}, {asked.data(), count},
-                                        priorFor(moment.now, moment.tracker, moment.airborne, standing_height_));
+  const auto fit =
+      acquisition_.attempt(moment.now, {estimates.data(), count}, {asked.data(), count},
+                           priorFor(moment.now, moment.tracker, moment.airborne, standing_height_));
   if (!fit) return kNone;
   int witnesses = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -117,7 +118,8 @@ double CableWatch::misfit(std::size_t a, std::size_t b, bool changed, const Mome
 void CableWatch::noteWhetherOdd(const Observation& observation, const Moment& moment) {
   const std::size_t index = indexOf(observation.camera);
   newest_[index] = observation;
-  const bool odd = moment.places[index] != nullptr && std::min(observation.count, markers_.count()) >= kFewestBalls &&
+  const bool odd = moment.places[index] != nullptr &&
+                   std::min(observation.count, markers_.count()) >= kFewestBalls &&
                    moment.tracker.track(observation.camera).agreeing_count < kAgreeing;
   odd_frames_[index] = odd ? std::min(odd_frames_[index] + 1, kOddFrames) : 0;
   if (odd) return;
@@ -163,8 +165,8 @@ CableWatch::Verdict CableWatch::askPair(const Moment& moment) {
   return {Finding::kChanged, first, second};
 }
 
-CableWatch::Verdict CableWatch::add(const Observation& observation, const Places& places, std::span<const bool> usable,
-                                    const Tracker& tracker, bool airborne) {
+CableWatch::Verdict CableWatch::add(const Observation& observation, const Places& places,
+                                    std::span<const bool> usable, const Tracker& tracker, bool airborne) {
   const std::size_t index = indexOf(observation.camera);
   const Moment moment{observation.exposure, places, usable, tracker, airborne};
   noteWhetherOdd(observation, moment);

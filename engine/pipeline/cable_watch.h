@@ -15,11 +15,12 @@
 namespace helical {
 
 /// What cameras that disagree with the pose have to say once they are asked together. Two whose cables were
-/// changed each show what the other one should: with their frames changed back, one pose explains all cameras,
-/// three times in a row, at least twice as well as without and with those of any other two changed. A camera that was set aside because two disagreed comes back when one
-/// pose explains it and the others again, ten times in a row. A knocked camera does neither: no pose explains
-/// it from where it stood. One attempt to find such a pose with each frame of a camera that disagrees, fewer
-/// when that goes on for seconds. One thread; allocates nothing after construction.
+/// changed each show what the other one should: with their frames changed back, one pose explains all
+/// cameras, three times in a row, at least twice as well as without and with those of any other two changed.
+/// A camera that was set aside because two disagreed comes back when one pose explains it and the others
+/// again, ten times in a row. A knocked camera does neither: no pose explains it from where it stood. One
+/// attempt to find such a pose with each frame of a camera that disagrees, fewer when that goes on for
+/// seconds. One thread; allocates nothing after construction.
 class CableWatch {
  public:
   CableWatch(const MarkerLayout& markers, std::vector<CameraModel> cameras, double standing_height);
@@ -41,8 +42,8 @@ class CableWatch {
   /// Where a camera stands, as far as somebody vouches for that; null: nobody does.
   using Places = std::array<const CameraEstimate*, kMaxCameras>;
 
-  /// After the tracker has taken in this frame, of the camera that `cameraOf` says. Those in `places` that are not
-  /// `usable` were set aside.
+  /// After the tracker has taken in this frame, of the camera that `cameraOf` says. Those in `places` that
+  /// are not `usable` were set aside.
   Verdict add(const Observation& observation, const Places& places, std::span<const bool> usable,
               const Tracker& tracker, bool airborne);
 
@@ -61,8 +62,8 @@ class CableWatch {
   bool isPair(std::size_t a, std::size_t b, const Moment& moment) const;
   /// The next two of which one disagrees.
   void nextPair(const Moment& moment);
-  /// How well one pose explains the cameras in control and these two, with the frames of these two changed or as they
-  /// come [px]; infinite: none does.
+  /// How well one pose explains the cameras in control and these two, with the frames of these two changed or
+  /// as they come [px]; infinite: none does.
   double misfit(std::size_t a, std::size_t b, bool changed, const Moment& moment);
   Verdict askAlone(std::size_t camera, const Moment& moment);
   Verdict askPair(const Moment& moment);
@@ -77,12 +78,12 @@ class CableWatch {
   Acquisition acquisition_;
   std::array<CameraId, kMaxCameras> camera_of_{};
   std::array<Observation, kMaxCameras> newest_{};
-  std::array<int, kMaxCameras> odd_frames_{};    ///< in a row, that disagree
-  std::array<int, kMaxCameras> tries_{};         ///< since it began to disagree
-  std::array<int, kMaxCameras> good_tries_{};    ///< in a row, of those set aside
+  std::array<int, kMaxCameras> odd_frames_{};  ///< in a row, that disagree
+  std::array<int, kMaxCameras> tries_{};       ///< since it began to disagree
+  std::array<int, kMaxCameras> good_tries_{};  ///< in a row, of those set aside
   struct Pair {
-    int good = 0;        ///< tries in a row
-    double misfit = 0.0; ///< of the last one [px]; 0: not tried yet
+    int good = 0;         ///< tries in a row
+    double misfit = 0.0;  ///< of the last one [px]; 0: not tried yet
   };
   std::array<std::array<Pair, kMaxCameras>, kMaxCameras> pairs_{};  ///< [a][b], a < b
   std::size_t a_ = 0, b_ = 0;                                       ///< those of the last try

@@ -20,15 +20,15 @@ namespace helical {
 
 /// Which cameras the helicopter is flown on, and how the others get there: keeps every camera's estimate,
 /// teaches those whose pose is not known yet, and takes out those that were knocked, whether their pose was
-/// given or learnt, to teach them anew from where they stood. Of two that disagree nobody can tell which one was
-/// moved, and none is named; but flying on with both crashes, so that the one that jumped away from the pose
-/// predicted from before is set aside until it agrees again or the operator decides. Knocks too small to throw a ball out of its gate
-/// are found by StepDetector where three cameras are in control.
+/// given or learnt, to teach them anew from where they stood. Of two that disagree nobody can tell which one
+/// was moved, and none is named; but flying on with both crashes, so that the one that jumped away from the
+/// pose predicted from before is set aside until it agrees again or the operator decides. Knocks too small to
+/// throw a ball out of its gate are found by StepDetector where three cameras are in control.
 ///
-/// Who teaches whom has no circles. Cameras with a given pose have rank 0, those whose pose has to be found rank
-/// 1, and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of lower rank
-/// alone have seen, two at least: a camera that taught itself would confirm its own error, and two that
-/// taught each other would confirm each other's. One thread; allocates nothing after construction.
+/// Who teaches whom has no circles. Cameras with a given pose have rank 0, those whose pose has to be found
+/// rank 1, and a knocked camera gets a rank above all others. A camera learns from a pose that cameras of
+/// lower rank alone have seen, two at least: a camera that taught itself would confirm its own error, and two
+/// that taught each other would confirm each other's. One thread; allocates nothing after construction.
 class ControlSet {
  public:
   /// Throws Error(kInput) for an unknown method of calibration or kind of tracker.
@@ -64,7 +64,8 @@ class ControlSet {
   bool camerasDisagree() const;
   /// Where each camera stands, in control or as it was set aside; null where nobody vouches for a place.
   std::array<const CameraEstimate*, kMaxCameras> places() const;
-  /// It does stand where it stood: if it was set aside it flies again, and what it showed of late counts no more.
+  /// It does stand where it stood: if it was set aside it flies again, and what it showed of late counts no
+  /// more.
   void standsAsBefore(CameraId camera);
   /// How often this camera was found knocked.
   int knocksFound(CameraId camera) const { return knocks_found_[indexOf(camera)]; }
@@ -89,8 +90,8 @@ class ControlSet {
   void addToBound(const Observation& observation, const Tracker& tracker,
                   const RigidTransform& world_from_body);
 
-  /// The balls in the newest frame, named by the tracker for a camera in control, by its calibrator for a learning
-  /// one. `outside_gate`: those, too, that do not lie where the pose says.
+  /// The balls in the newest frame, named by the tracker for a camera in control, by its calibrator for a
+  /// learning one. `outside_gate`: those, too, that do not lie where the pose says.
   NamedBalls namedBalls(const Observation& observation, const Tracker& tracker, bool outside_gate) const;
   /// Has the refinement see the balls that this camera and the tracker agree on.
   void showToRefinement(const Observation& observation, const Tracker& tracker, const RigidTransform& flown);
@@ -114,11 +115,12 @@ class ControlSet {
   std::array<std::optional<CameraEstimate>, kMaxCameras> set_aside_;  ///< where it stood when two disagreed
   std::array<std::unique_ptr<CameraCalibration>, kMaxCameras> calibrations_;
   std::array<LiveBound, kMaxCameras> bounds_;
-  std::unique_ptr<ColdStart> cold_start_;        ///< if fewer than two cameras were given
+  std::unique_ptr<ColdStart> cold_start_;                ///< if fewer than two cameras were given
   std::array<bool, kMaxCameras> found_by_cold_start_{};  ///< or are to be
   std::unique_ptr<RigRefinement> refinement_;
   std::array<bool, kMaxCameras> refining_{};  ///< takes part, and nothing else happened to it since
-  std::array<bool, kMaxCameras> refined_{};   ///< the refinement found it, and it learns on from there or stands
+  std::array<bool, kMaxCameras>
+      refined_{};  ///< the refinement found it, and it learns on from there or stands
   std::vector<std::unique_ptr<Tracker>> teachers_;  ///< [r] sees with cameras of rank below r alone
 };
 

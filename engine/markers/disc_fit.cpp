@@ -31,16 +31,11 @@ constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle throug
 /// noise keeps the fit from settling.
 constexpr float kFlat = 0.15F;
 constexpr int kRays = 24;
-/// Second moments, longer over shorter: from the first on, what is no disc may be smeared; from the second
-/// on, what looks like a disc, too, which noise makes longish by no more; from the third on, nothing hides so
-/// much of a ball.
-constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25, kMostHidden = 4.0;
-/// The shorter axis' skewness over the root of the moments' excess: 0 of a smeared ball, 0.16 of one that
-/// something hides a tenth to a half of, from one side.
-constexpr double kMostSkew = 0.07;
+/// Elongation: from the first on, what is no disc may be smeared; from the second on, what looks like a disc,
+/// too, which noise makes longish by no more.
+constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25;
 /// Cells of a region: fewer say too little of which of its sides are alike.
 constexpr std::int64_t kFewestSmeared = 40;
-constexpr double kSmearSigma = 0.03;  ///< of the smear's length, measured with drawn balls
 
 /// The unknowns: those of the model, and of a second channel the ball's level over that of the first, and the
 /// level around it.
@@ -165,46 +160,14 @@ ValueWindow DiscFit::window(const Region& region) {
   return {values_.data(), width_, height_, 0.5F * (ball + around)};
 }
 
-bool DiscFit::isSmeared(double least) {
-  if (neighbour_ || region_.area < kFewestSmeared) return false;
+Smear DiscFit::smearOfRegion() {
+  if (neighbour_ || region_.area < kFewestSmeared) return {};
   const ValueWindow values = window(region_);
-  // Shares of cells, from a quarter to three quarters of the ball's level: sharper than its outline, less
-  // noisy.
-  const auto shareOf = [&](std::size_t i) {
-    const double above = static_cast<double>(colour_->value[i] - values.level);
-    return std::clamp(0.5 + above / std::max(1.0, contrast_), 0.0, 1.0);
-  };
-  double sum = 0.0;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < real_count_; ++i) {
-    sum += shareOf(i);
-    middle += shareOf(i) * Eigen::Vector2d(colour_->x[i], colour_->y[i]);
-  }
-  if (!(sum > 1.0)) return false;
-  middle /= sum;
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < real_count_; ++i) {
-    const Eigen::Vector2d apart = Eigen::Vector2d(colour_->x[i], colour_->y[i]) - middle;
-    moments += shareOf(i) / sum * apart * apart.transpose();
-  }
-  const double mean = 0.5 * moments.trace(), half = 0.5 * (moments(0, 0) - moments(1, 1));
-  const double turn = std::sqrt(half * half + moments(0, 1) * moments(0, 1));
-  const double longer = mean + turn, shorter = mean - turn;
-  if (!(shorter > 0.0 && longer > least * shorter)) return false;
-  // Of the two forms of the eigenvector, that which does not cancel.
-  Eigen::Vector2d axis =
-      half > 0.0 ? Eigen::Vector2d(half + turn, moments(0, 1)) : Eigen::Vector2d(moments(0, 1), turn - half);
-  axis.normalize();
-  double skew = 0.0;
-  for (std::size_t i = 0; i < real_count_; ++i) {
-    const double across = axis.x() * (colour_->y[i] - middle.y()) - axis.y() * (colour_->x[i] - middle.x());
-    skew += shareOf(i) / sum * across * across * across;
-  }
-  const double excess = longer / shorter - 1.0, limit = kMostSkew * kMostSkew * excess;
-  if (excess < kMostHidden - 1.0 && skew * skew > limit * shorter * shorter * shorter) return false;
-  const double length_squared = 12.0 * (longer - shorter);
-  smear_ = kSmearSigma * kSmearSigma * length_squared * axis * axis.transpose();
-  return true;
+  return measureSmear({{colour_->x.data(), real_count_},
+                       {colour_->y.data(), real_count_},
+                       {colour_->value.data(), real_count_},
+                       static_cast<double>(values.level),
+                       contrast_});
 }
 
 float DiscFit::givenAt(double x, double y) const {
@@ -215,13 +178,16 @@ float DiscFit::givenAt(double x, double y) const {
 }
 
 std::optional<Disc> DiscFit::fitColour() {
-  if (isSmeared(kSurelySmeared)) return std::nullopt;
+  const Smear smear = smearOfRegion();
+  smear_ = smear.covariance;
+  if (smear.isOver(kSurelySmeared)) return std::nullopt;
   start(binary_);
   std::array<OutlinePoint, kRays> room;
   const std::span outline(room.data(), static_cast<std::size_t>(traceOutline(room)));
   if (descend(kSteps) && isPlausible() && fitsEverywhere())
     if (const auto disc = result()) return disc;
-  if (isSmeared(kLeastSmear)) return std::nullopt;
+  if (smear.isOver(kLeastSmear)) return std::nullopt;
+  smear_.setZero();
   start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
     leaveOutHidden();

@@ -11,6 +11,7 @@
 #include "engine/markers/disc_kernels.h"
 #include "engine/markers/overlap_split.h"
 #include "engine/markers/region_labeller.h"
+#include "engine/markers/smear.h"
 
 namespace helical {
 
@@ -57,7 +58,7 @@ class DiscFit {
   void start(const OutlineCircle& circle);
   Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
   ValueWindow window(const Region& region);
-  bool isSmeared(double least);
+  Smear smearOfRegion();
   float givenAt(double x, double y) const;
   std::optional<Disc> fitWindow();
   std::optional<Disc> fitColour();

@@ -19,9 +19,7 @@ namespace {
 QLabel* makeLabel(const QString& text) {
   auto* label = new QLabel(text);
   label->setFont(theme::uiFont(8.6));
-  QPalette palette = label->palette();
-  palette.setColor(QPalette::WindowText, theme::kMuted);
-  label->setPalette(palette);
+  theme::setTextColor(*label, theme::kMuted);
   return label;
 }
 

@@ -48,9 +48,7 @@ ChannelsDialog::ChannelsDialog(const TransmitterOptions& transmitter, Saver save
   title_->setFont(theme::uiFont(13, QFont::DemiBold));
   problem_->setWordWrap(true);
   problem_->setAccessibleName(tr("What is wrong"));
-  QPalette caution = problem_->palette();
-  caution.setColor(QPalette::WindowText, theme::kCaution);
-  problem_->setPalette(caution);
+  theme::setTextColor(*problem_, theme::kCaution);
   next_->setObjectName(QStringLiteral("apply"));
   auto* buttons = new QHBoxLayout;
   auto* cancel = stepButton(tr("Cancel"));

@@ -47,7 +47,7 @@ void paintMap(QPainter& painter, const QRectF& area, const std::function<double(
 }  // namespace
 
 HeatMaps::HeatMaps(const QString& camera_name, QSize sensor, QWidget* parent)
-    : QWidget(parent), camera_name_(camera_name), sensor_(sensor), heat_(sensor) {
+    : QWidget(parent), camera_name_(camera_name), heat_(sensor) {
   setAccessibleName(tr("Coverage and residual maps of %1").arg(camera_name));
   setToolTip(
       tr("Left: where in the image used markers were seen, right: how far off they were there. Right click: "
@@ -67,8 +67,7 @@ void HeatMaps::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 bool HeatMaps::save(const QString& path) {
-  if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) return saveText(path, table());
-  return savePicture(*this, path);
+  return savePlot(*this, path, [this] { return table(); });
 }
 
 QString HeatMaps::table() const {
@@ -76,10 +75,8 @@ QString HeatMaps::table() const {
   QTextStream out(&text, QIODevice::Append);
   for (int row = 0; row < ImageHeat::kRows; ++row)
     for (int column = 0; column < ImageHeat::kColumns; ++column) {
-      // The middle of the part; pixel centres are whole numbers.
-      out << (column + 0.5) * sensor_.width() / ImageHeat::kColumns - 0.5 << ','
-          << (row + 0.5) * sensor_.height() / ImageHeat::kRows - 0.5 << ',' << heat_.count(column, row)
-          << ',';
+      const QPointF middle = heat_.middle(column, row);
+      out << middle.x() << ',' << middle.y() << ',' << heat_.count(column, row) << ',';
       if (const double residual = heat_.residual(column, row); std::isfinite(residual)) out << residual;
       out << '\n';
     }

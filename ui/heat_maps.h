@@ -31,7 +31,6 @@ class HeatMaps : public QWidget {
   QString table() const;
 
   QString camera_name_;
-  QSize sensor_;
   ImageHeat heat_;
 };
 

@@ -25,6 +25,10 @@ void ImageHeat::clear() {
   cells_.fill({});
 }
 
+QPointF ImageHeat::middle(int column, int row) const {
+  return {(column + 0.5) * sensor_.width() / kColumns - 0.5, (row + 0.5) * sensor_.height() / kRows - 0.5};
+}
+
 int ImageHeat::largestCount() const {
   return std::max_element(cells_.begin(), cells_.end(),
                           [](const Cell& a, const Cell& b) { return a.count < b.count; })

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPointF>
 #include <QSize>
 #include <array>
 
@@ -20,6 +21,9 @@ class ImageHeat {
   /// Every frame once; a track that was added last is ignored.
   void add(const CameraTrack& track, int marker_count);
   void clear();
+
+  /// The middle of a cell; pixel centres are whole numbers [px].
+  QPointF middle(int column, int row) const;
 
   int count(int column, int row) const { return cell(column, row).count; }
   int largestCount() const;

@@ -69,8 +69,7 @@ void LatencyPlot::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 bool LatencyPlot::save(const QString& path) {
-  if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) return saveText(path, table());
-  return savePicture(*this, path);
+  return savePlot(*this, path, [this] { return table(); });
 }
 
 QString LatencyPlot::table() const {

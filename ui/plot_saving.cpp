@@ -43,6 +43,14 @@ bool savePage(QWidget& widget, const QString& path) {
   return painter.end();
 }
 
+bool savePicture(QWidget& widget, const QString& path) {
+  if (path.endsWith(QStringLiteral(".pdf"), Qt::CaseInsensitive)) return savePage(widget, path);
+  QPixmap picture(widget.size() * kPictureScale);
+  picture.setDevicePixelRatio(kPictureScale);
+  widget.render(&picture);
+  return picture.save(path);
+}
+
 QString headOf(const std::vector<PlotLane>& lanes) {
   QString head = QStringLiteral("time_s");
   for (const PlotLane& lane : lanes)
@@ -66,14 +74,6 @@ void offerToSave(QWidget* plot, const QPoint& position, const QString& name, con
   menu->popup(position);
 }
 
-bool savePicture(QWidget& widget, const QString& path) {
-  if (path.endsWith(QStringLiteral(".pdf"), Qt::CaseInsensitive)) return savePage(widget, path);
-  QPixmap picture(widget.size() * kPictureScale);
-  picture.setDevicePixelRatio(kPictureScale);
-  widget.render(&picture);
-  return picture.save(path);
-}
-
 bool saveText(const QString& path, const QString& text) {
   QFile file(path);
   if (!file.open(QIODevice::WriteOnly | QIODevice::Text)) return false;
@@ -81,6 +81,11 @@ bool saveText(const QString& path, const QString& text) {
   out << text;
   out.flush();
   return file.error() == QFileDevice::NoError && out.status() == QTextStream::Ok;
+}
+
+bool savePlot(QWidget& plot, const QString& path, const std::function<QString()>& table) {
+  if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) return saveText(path, table());
+  return savePicture(plot, path);
 }
 
 QString tableOf(const std::vector<PlotLane>& lanes, const TickHistory& history, std::int64_t begin,

@@ -19,11 +19,11 @@ using PlotSaver = std::function<bool(const QString& path)>;
 /// of the file's proposed name.
 void offerToSave(QWidget* plot, const QPoint& position, const QString& name, const PlotSaver& save);
 
-/// A widget as picture or, for a path that ends in pdf, as page.
-bool savePicture(QWidget& widget, const QString& path);
-
 /// Text, as it is.
 bool saveText(const QString& path, const QString& text);
+
+/// A widget as picture, for a path that ends in pdf as page, in csv its `table`.
+bool savePlot(QWidget& plot, const QString& path, const std::function<QString()>& table);
 
 /// The lanes' values from one row of the history to before another, one line a tick.
 QString tableOf(const std::vector<PlotLane>& lanes, const TickHistory& history, std::int64_t begin, std::int64_t end);

@@ -153,9 +153,7 @@ void TuningEditor::mark() {
     const bool changed = draft_.*keys[i].value != control_.*keys[i].value;
     any |= changed;
     other |= draft_.*keys[i].value != from_rig_.*keys[i].value;
-    QPalette palette = names_[i]->palette();
-    palette.setColor(QPalette::WindowText, changed ? theme::kCaution : theme::kMuted);
-    names_[i]->setPalette(palette);
+    theme::setTextColor(*names_[i], changed ? theme::kCaution : theme::kMuted);
   }
   apply_->setEnabled(any);
   revert_->setEnabled(any);

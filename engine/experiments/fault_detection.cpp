@@ -89,7 +89,8 @@ bool FaultDetection::isNoticed(const Watched& watched, const EngineSnapshot& tic
     case FaultKind::kCameraKnocked:
     case FaultKind::kCamerasSwapped:
       return camera.knocks_found > watched.knocks_before || tick.cables_changed != watched.changes_before ||
-             camera.estimate.status == CameraStatus::kRejected || tick.cameras_disagree || alarms(tick, Failsafe::kUncertain) || alarms(tick, Failsafe::kNoPoseCoast);
+             camera.estimate.status == CameraStatus::kRejected || tick.cameras_disagree ||
+             alarms(tick, Failsafe::kUncertain) || alarms(tick, Failsafe::kNoPoseCoast);
     case FaultKind::kTransmitterUnplugged:
     case FaultKind::kTransmitterStalled:
       return alarms(tick, Failsafe::kTransmitterFault);

@@ -156,8 +156,7 @@ ValueWindow DiscFit::window(const Region& region) {
       if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1)
         sorted_[count++] = values_[static_cast<std::size_t>(y * width_ + x)];
   const float around = median(std::span(sorted_.data(), count));
-  contrast_ = 0.5 * static_cast<double>(ball - around);
-  return {values_.data(), width_, height_, 0.5F * (ball + around)};
+  return {values_.data(), width_, height_, 0.5F * (ball + around), 0.5F * (ball - around)};
 }
 
 Smear DiscFit::smearOfRegion() {
@@ -167,7 +166,8 @@ Smear DiscFit::smearOfRegion() {
                        {colour_->y.data(), real_count_},
                        {colour_->value.data(), real_count_},
                        static_cast<double>(values.level),
-                       contrast_});
+                       static_cast<double>(values.contrast)},
+                      kLeastSmear);
 }
 
 float DiscFit::givenAt(double x, double y) const {

@@ -85,7 +85,6 @@ class DiscFit {
   int top_ = 0;
   int width_ = 0;
   int height_ = 0;
-  double contrast_ = 0.0;  ///< half of what the window's ball is above what is around it
   Eigen::Matrix2d smear_ = Eigen::Matrix2d::Zero();
   Region region_;
   OutlineCircle binary_{};  ///< of the region; like the parameters from the window's corner on

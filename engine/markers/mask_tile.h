@@ -13,8 +13,6 @@ namespace helical {
 /// of the rectangle count as unset. Allocates in `resize` only. One thread.
 class MaskTile {
  public:
-  static constexpr int kLargestReach = 7;  ///< of a square of side 2 reach + 1
-
   /// Of the image, in cells.
   void resize(int width, int height);
   /// Becomes this rectangle, which lies inside of the image; its words are the caller's to fill.
@@ -31,6 +29,7 @@ class MaskTile {
     return now_->data() + kPadding + (word - rect_.left) * stride_;
   }
 
+  /// With a square of side 2 `reach` + 1, `reach` at most 7.
   void open(int reach);
   void close(int reach);
 

@@ -14,7 +14,8 @@ struct ValueWindow {
   const float* values = nullptr;
   int width = 0;
   int height = 0;
-  float level = 0.0F;
+  float level = 0.0F;     ///< between that of the ball and that of what is around it
+  float contrast = 0.0F;  ///< from there to the ball's
 
   bool isInside(int x, int y) const {
     return x >= 0 && y >= 0 && x < width && y < height && values[y * width + x] > level;

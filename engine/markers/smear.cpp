@@ -26,7 +26,7 @@ Cell cellOf(const SmearCells& cells, std::size_t i) {
 
 }  // namespace
 
-Smear measureSmear(const SmearCells& cells) {
+Smear measureSmear(const SmearCells& cells, double least_elongation) {
   Smear smear;
   double sum = 0.0;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -46,6 +46,7 @@ Smear measureSmear(const SmearCells& cells) {
   const double turn = std::sqrt(half * half + moments(0, 1) * moments(0, 1));
   const double longer = mean + turn, shorter = mean - turn;
   if (!(shorter > 0.0)) return smear;
+  if (!(longer > least_elongation * shorter)) return smear;
   smear.elongation = longer / shorter;
   // Of the two forms of the eigenvector, that which does not cancel.
   Eigen::Vector2d axis =

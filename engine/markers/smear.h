@@ -24,7 +24,8 @@ struct Smear {
   bool isOver(double least_elongation) const { return elongation > least_elongation && !one_sided; }
 };
 
-/// From second moments and the skewness of the shorter axis. Where there is no ball, no smear.
-Smear measureSmear(const SmearCells& cells);
+/// From second moments and the skewness of the shorter axis. Where there is no ball, and of what is no longer
+/// than `least_elongation`, no smear.
+Smear measureSmear(const SmearCells& cells, double least_elongation);
 
 }  // namespace helical

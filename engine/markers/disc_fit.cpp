@@ -27,10 +27,10 @@ constexpr double kLargeApart = 0.065;  ///< of the radius
 constexpr double kLongTail = 1.8;  ///< mean square over that of a normal distribution: something does not fit
 constexpr double kSettled = 3e-3;  ///< cells: a smaller step is the last
 constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle through an outline
-/// Directed over ambient light: with less, nobody knows which side is dark, and a shadow that turns with the
-/// noise keeps the fit from settling.
-constexpr float kFlat = 0.15F;
 constexpr int kRays = 24;
+/// Of a disc with an edge before it: the same with room for the few cells that the noise is known by, and
+/// the share that must be seen. What is no such disc leaves ten times as much.
+constexpr double kCutTail = 3.0, kLeastSeen = 0.3;
 /// Elongation: from the first on, what is no disc may be smeared; from the second on, what looks like a disc,
 /// too, which noise makes longish by no more.
 constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25;
@@ -188,12 +188,33 @@ std::optional<Disc> DiscFit::fitColour() {
     if (const auto disc = result()) return disc;
   if (smear.isOver(kLeastSmear)) return std::nullopt;
   smear_.setZero();
+  if (!neighbour_)
+    if (const auto cut = fitCut()) return cut;
   start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
     leaveOutHidden();
     if (!descend(kSteps) || !isPlausible()) return std::nullopt;
   }
   return result();
+}
+
+std::optional<Disc> DiscFit::fitCut() {
+  DiscCells& cells = *colour_;
+  start(binary_);
+  const CutDisc cut = nearestCut(p_, cells);
+  p_ = cut.disc;
+  double seen = 0.0;
+  for (std::size_t i = 0; i < real_count_; ++i) seen += cells.cover[i];
+  Disc disc;
+  disc.centre = {left_ + static_cast<double>(p_[kDiscX]), top_ + static_cast<double>(p_[kDiscY])};
+  disc.radius = p_[kDiscRadius];
+  disc.seen_share = seen / (kPi * disc.radius * disc.radius);
+  disc.covariance = cut.covariance(cells);
+  const double noise = noiseAround();
+  const bool fits = cut.squares < kCutTail * noise * noise * cut.count;
+  if (!fits || !isPlausible() || disc.seen_share < kLeastSeen || isDoubtful(disc)) return std::nullopt;
+  leaveOutHidden();
+  return disc;
 }
 
 std::optional<Disc> DiscFit::withBrightness(const Disc& by_colour) {
@@ -322,7 +343,7 @@ std::size_t DiscFit::placeOf(std::size_t cell) const {
 
 void DiscFit::leaveOutHidden() {
   DiscCells& cells = *colour_;
-  evaluateDisc(p_, hasShadow(), cells);
+  evaluateDisc(p_, hasShadow(p_), cells);
   is_marked_.fill(0);
   const float around = p_[kDiscAround];
   for (std::size_t i = 0; i < real_count_; ++i) {
@@ -349,10 +370,10 @@ bool DiscFit::startBrightness() {
   std::copy_n(colour.x.begin(), colour.count, brightness.x.begin());
   std::copy_n(colour.y.begin(), colour.count, brightness.y.begin());
   std::copy_n(colour.given.begin(), colour.count, brightness.given.begin());
-  evaluateDisc(p_, hasShadow(), colour);
+  evaluateDisc(p_, hasShadow(p_), colour);
   const float colour_scale = residualScale(colour);
   levelBrightness();
-  evaluateDisc(brightnessParameters(), hasShadow(), brightness);
+  evaluateDisc(brightnessParameters(), hasShadow(p_), brightness);
   leaveOutUneven(kOutside * residualScale(brightness));
   const float scale = residualScale(brightness);
   if (scale > kUneven * colour_scale) return false;
@@ -401,22 +422,17 @@ DiscFit::Parameters DiscFit::brightnessParameters() const {
   return p;
 }
 
-bool DiscFit::hasShadow() const {
-  const float x = p_[kDiscLightX], y = p_[kDiscLightY], z = p_[kDiscLightZ], flat = kFlat * p_[kDiscAmbient];
-  return x * x + y * y + z * z > flat * flat;
-}
-
 DiscFit::System DiscFit::linearise() {
   System system;
   DiscSums sums;
-  evaluateDisc(p_, hasShadow(), *colour_);
+  evaluateDisc(p_, hasShadow(p_), *colour_);
   sumDisc(*colour_, sums);
   system.normal.topLeftCorner<kDiscParameters, kDiscParameters>() = normalOf(sums);
   system.gradient.head<kDiscParameters>() = Eigen::Map<const ModelVector>(sums.gradient.data());
   system.count = sums.count;
   system.squares = sums.squares;
   if (brightness_weight_ > 0.0) {
-    evaluateDisc(brightnessParameters(), hasShadow(), *brightness_);
+    evaluateDisc(brightnessParameters(), hasShadow(p_), *brightness_);
     sumDisc(*brightness_, sums);
     Eigen::Matrix<double, kDiscParameters, kUnknowns> chain =
         Eigen::Matrix<double, kDiscParameters, kUnknowns>::Zero();

@@ -8,6 +8,7 @@
 
 #include "engine/markers/ball_outline.h"
 #include "engine/markers/cell_grid.h"
+#include "engine/markers/cut_disc.h"
 #include "engine/markers/disc_kernels.h"
 #include "engine/markers/overlap_split.h"
 #include "engine/markers/region_labeller.h"
@@ -29,8 +30,9 @@ struct Disc {
 /// with the share of the cell that the disc covers and the normal of the sphere there. What is fitted first
 /// is the colour's part along the ball's own, so that grey surroundings, whatever their brightness, look
 /// alike; then, where the surroundings are even, the brightness as well, with the same light and a level of
-/// its own, each cell of both by the scatter around the fit. Where the outline is not round, the circle that
-/// most of it lies on is the start, and cells that do not fit are left out: something hides them. The
+/// its own, each cell of both by the scatter around the fit. Where that does not fit, something hides a part:
+/// a straight edge before the disc is fitted, too. If the edge is none, the circle that most of the outline
+/// lies on is the start, and cells that do not fit are left out. The
 /// covariance is that of the fit, with the scatter of the residuals. Repeats bit for bit on any machine.
 /// Allocates in the constructor only. One thread.
 class DiscFit {
@@ -62,12 +64,12 @@ class DiscFit {
   float givenAt(double x, double y) const;
   std::optional<Disc> fitWindow();
   std::optional<Disc> fitColour();
+  std::optional<Disc> fitCut();
   std::optional<Disc> withBrightness(const Disc& by_colour);
   bool startBrightness();
   void levelBrightness();
   void leaveOutUneven(float limit);
   Parameters brightnessParameters() const;
-  bool hasShadow() const;
   System linearise();
   bool descend(int steps);
   float residualScale(const DiscCells& cells);

@@ -108,6 +108,25 @@ void evaluateAll(const std::array<float, kDiscParameters>& p, bool with_shadow, 
   }
 }
 
+void cutAll(const CutEdge& edge, DiscCells& cells) {
+  const Tag d;
+  const Floats nx = all(edge.normal_x), ny = all(edge.normal_y), level = all(edge.level), one = all(1.0F);
+  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
+    const Floats dx = hn::Load(d, &cells.x[i]) - all(edge.x), dy = hn::Load(d, &cells.y[i]) - all(edge.y);
+    const CoveredPart part = coveredPart(all(edge.offset) - (nx * dx + ny * dy), hn::Abs(nx), hn::Abs(ny));
+    const Floats seen = part.share, value = hn::Load(d, &cells.value[i]);
+    const Floats above = value - hn::Load(d, &cells.residual[i]) - level;  // the disc over what hides it
+    for (int k = 0; k < kDiscParameters; ++k)
+      hn::Store(seen * hn::Load(d, &cells.slope[k][i]), d, &cells.slope[k][i]);
+    const Floats by_offset = part.slope * above;
+    hn::Store(by_offset, d, &cells.slope[kCutOffset][i]);
+    hn::Store(by_offset * (ny * dx - nx * dy), d, &cells.slope[kCutTurn][i]);
+    hn::Store(one - seen, d, &cells.slope[kCutLevel][i]);
+    hn::Store(seen * hn::Load(d, &cells.cover[i]), d, &cells.cover[i]);
+    hn::Store(value - (level + seen * above), d, &cells.residual[i]);
+  }
+}
+
 /// Sums over the given cells of value a b for one a and each b, always over kDiscLanes partial sums.
 template <std::size_t kCount, class A, class B>
 HWY_INLINE std::array<double, kCount> sumsOver(const DiscCells& cells, A a, B b) {
@@ -128,10 +147,10 @@ HWY_INLINE std::array<double, kCount> sumsOver(const DiscCells& cells, A a, B b)
   return totals;
 }
 
-/// Row `kRow` of the normal equations, and those after it.
-template <std::size_t kRow>
+/// Row `kRow` of the normal equations, and those after it as far as `kRows`.
+template <std::size_t kRows, std::size_t kRow = 0>
 HWY_INLINE void sumRows(const DiscCells& cells, DiscSums& sums) {
-  if constexpr (kRow < kDiscParameters) {
+  if constexpr (kRow < kRows) {
     const auto slope = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.slope[kRow][i]); };
     const auto other = [&](std::size_t i, std::size_t j) HWY_ATTR {
       return hn::Load(Tag(), j > kRow ? &cells.residual[i] : &cells.slope[j][i]);
@@ -139,17 +158,26 @@ HWY_INLINE void sumRows(const DiscCells& cells, DiscSums& sums) {
     const auto totals = sumsOver<kRow + 2>(cells, slope, other);
     std::copy_n(totals.begin(), kRow + 1, sums.normal[kRow].begin());
     sums.gradient[kRow] = totals[kRow + 1];
-    sumRows<kRow + 1>(cells, sums);
+    sumRows<kRows, kRow + 1>(cells, sums);
   }
 }
 
-void sumAll(const DiscCells& cells, DiscSums& sums) {
-  sumRows<0>(cells, sums);
+template <std::size_t kRows>
+HWY_INLINE void sumAll(const DiscCells& cells, DiscSums& sums) {
+  sumRows<kRows>(cells, sums);
   const auto one = [](std::size_t) HWY_ATTR { return all(1.0F); };
   const auto residual = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.residual[i]); };
   sums.count = sumsOver<1>(cells, one, [](std::size_t, std::size_t) HWY_ATTR { return all(1.0F); })[0];
   sums.squares =
       sumsOver<1>(cells, residual, [&](std::size_t i, std::size_t) HWY_ATTR { return residual(i); })[0];
+}
+
+void sumAllOfDisc(const DiscCells& cells, DiscSums& sums) {
+  sumAll<kDiscParameters>(cells, sums);
+}
+
+void sumAllOfCutDisc(const DiscCells& cells, DiscSums& sums) {
+  sumAll<kCutParameters>(cells, sums);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -160,14 +188,24 @@ HWY_AFTER_NAMESPACE();
 namespace helical {
 
 HWY_EXPORT(evaluateAll);
-HWY_EXPORT(sumAll);
+HWY_EXPORT(cutAll);
+HWY_EXPORT(sumAllOfDisc);
+HWY_EXPORT(sumAllOfCutDisc);
 
 void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells) {
   HWY_DYNAMIC_DISPATCH(evaluateAll)(parameters, with_shadow, cells);
 }
 
+void cutDisc(const CutEdge& edge, DiscCells& cells) {
+  HWY_DYNAMIC_DISPATCH(cutAll)(edge, cells);
+}
+
 void sumDisc(const DiscCells& cells, DiscSums& sums) {
-  HWY_DYNAMIC_DISPATCH(sumAll)(cells, sums);
+  HWY_DYNAMIC_DISPATCH(sumAllOfDisc)(cells, sums);
+}
+
+void sumCutDisc(const DiscCells& cells, DiscSums& sums) {
+  HWY_DYNAMIC_DISPATCH(sumAllOfCutDisc)(cells, sums);
 }
 
 }  // namespace helical

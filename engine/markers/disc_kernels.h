@@ -5,7 +5,7 @@
 
 namespace helical {
 
-/// The parameters of DiscFit's model, in the order of its slopes.
+/// The parameters of DiscFit's model, in the order of its slopes; then those of an edge before the ball.
 enum DiscParameter {
   kDiscX,
   kDiscY,
@@ -15,7 +15,11 @@ enum DiscParameter {
   kDiscLightY,
   kDiscLightZ,
   kDiscAround,
-  kDiscParameters
+  kDiscParameters,
+  kCutOffset = kDiscParameters,
+  kCutTurn,
+  kCutLevel,
+  kCutParameters
 };
 
 inline constexpr std::size_t kDiscCells = 8192;  ///< room for this many cells
@@ -31,20 +35,32 @@ struct DiscCells {
   alignas(64) std::array<float, kDiscCells> given;  ///< 1, or 0 for what is not fitted
   alignas(64) std::array<float, kDiscCells> residual;
   alignas(64) std::array<float, kDiscCells> cover;
-  alignas(64) std::array<std::array<float, kDiscCells>, kDiscParameters> slope;
+  alignas(64) std::array<std::array<float, kDiscCells>, kCutParameters> slope;
+};
+
+/// The straight edge of something before the ball: what lies beyond, seen from a place along the normal, is
+/// hidden and shows its level instead.
+struct CutEdge {
+  float x = 0.0F, y = 0.0F;  ///< the place
+  float normal_x = 1.0F, normal_y = 0.0F;
+  float offset = 0.0F;  ///< from the place
+  float level = 0.0F;
 };
 
 struct DiscSums {
-  std::array<std::array<double, kDiscParameters>, kDiscParameters> normal;  ///< lower triangle
-  std::array<double, kDiscParameters> gradient;
+  std::array<std::array<double, kCutParameters>, kCutParameters> normal;  ///< lower triangle
+  std::array<double, kCutParameters> gradient;
   double count;
   double squares;
 };
 
 /// Fills residual, cover and slope. `with_shadow`: no surface is darker than by ambient light alone.
 void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells);
-/// Over the given cells.
+/// After evaluateDisc: the same with an edge before the disc, and the edge's slopes. `cover` is what is seen.
+void cutDisc(const CutEdge& edge, DiscCells& cells);
+/// Over the given cells, of the disc's parameters alone or of the edge's, too.
 void sumDisc(const DiscCells& cells, DiscSums& sums);
+void sumCutDisc(const DiscCells& cells, DiscSums& sums);
 
 // The same bits in every instruction set: no operation is fused, approximated or done in another order.
 

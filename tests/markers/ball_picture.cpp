@@ -12,7 +12,9 @@ using Colour = std::array<double, 3>;
 Colour sampleAt(const BallPicture& ball, double x, double y) {
   constexpr Colour kWall{105, 110, 115}, kBall{60, 200, 50}, kDark{40, 40, 40};
   const double u = (x - ball.x) / ball.radius, v = (y - ball.y) / ball.radius, d2 = u * u + v * v;
-  if (x > ball.x + ball.hidden_from) return kDark;
+  const double towards =
+      (x - ball.x) * std::cos(ball.hidden_side) + (y - ball.y) * std::sin(ball.hidden_side);
+  if (towards > ball.hidden_from) return kDark;
   if (d2 >= 1.0) return kWall;
   const double facing = std::max(0.0, 0.8 * std::sqrt(1.0 - d2) - 0.4 * v - 0.2 * u);
   const double light = 1.0 - ball.shading + ball.shading * facing;

@@ -97,6 +97,21 @@ TEST(DiscFit, StandsAQuarterHidden) {
   }
 }
 
+TEST(DiscFit, StandsAPartOfASmallBallHiddenFromAnySide) {
+  for (const double side : {0.0, 0.5, 1.4, 2.6, 4.0, 5.5})
+    for (const double from : {0.7, 0.404}) {
+      SCOPED_TRACE(testing::Message() << "hidden from " << from << " radii on, towards " << side);
+      BallPicture ball{0, 0, 3.0, 0.5};
+      ball.hidden_from = from * ball.radius;
+      ball.hidden_side = side;
+      const Errors errors = measure(ball, 2.0, 60);
+      EXPECT_EQ(errors.failed, 0);
+      EXPECT_LT(errors.rms, 0.06);  // of circles that cover what is seen, one in ten is 0.7 px beside it
+      EXPECT_GT(errors.binary_rms, 0.1);
+      EXPECT_NEAR(errors.seen_share, from > 0.5 ? 0.905 : 0.75, 0.07);
+    }
+}
+
 TEST(DiscFit, RepeatsBitForBitInEveryInstructionSet) {
   std::vector<Disc> expected;
   for (const std::string& name : instructionSets()) {

@@ -21,6 +21,7 @@ struct RigArguments {
   std::string rig;
   std::string out;
   std::string scale;
+  bool trust_stamps = false;
   bool json = false;
 };
 
@@ -61,6 +62,7 @@ nlohmann::json toJson(const RigCalibration& calibration) {
           c.observations > c.rejected ? nlohmann::json(c.reprojection_rms_px) : nlohmann::json()},
          {"observations", c.observations},
          {"rejected", c.rejected},
+         {"late_s", c.late_s},
          {"position_sigma_m", known ? nlohmann::json(c.position_sigma_m) : nlohmann::json()},
          {"orientation_sigma_deg", known ? nlohmann::json(c.orientation_sigma_deg) : nlohmann::json()},
          {"distance_m", c.camera_from_world ? nlohmann::json(c.distance_m) : nlohmann::json()}});
@@ -97,6 +99,10 @@ void printReport(const RigCalibration& calibration) {
       std::printf(calibration.metric ? " %9.2f mm %8.3f deg\n" : " %12.2e %8.3f deg\n",
                   (calibration.metric ? 1e3 : 1.0) * c.position_sigma_m, c.orientation_sigma_deg);
   }
+  for (const CalibratedCamera& c : calibration.cameras)
+    if (calibration.delays && c.late_s != 0.0)
+      std::printf("camera %s saw %.4g s %s than its time stamps say, against the first: taken into account\n",
+                  c.label.c_str(), std::abs(c.late_s), c.late_s > 0.0 ? "later" : "earlier");
   std::printf("verdict: %s\n", nameOf(calibration.verdict));
   for (const std::string& reason : calibration.reasons) std::printf("  %s\n", reason.c_str());
 }
@@ -131,6 +137,7 @@ int calibrate(const RigArguments& arguments) {
                 "give a rig of at least two cameras that see the target at once");
   RigCalibrationOptions options;
   if (!arguments.scale.empty()) options.scale = parseScale(arguments.scale, rig);
+  options.trust_stamps = arguments.trust_stamps;
   PointRows rows;
   {
     Progress progress("Reading observations");
@@ -171,11 +178,17 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
   command->add_option("--out", arguments->out, "Rig file to write, with all poses and their covariances")
       ->required();
   command->add_option("--scale", arguments->scale, "Distance of two cameras: CAM,CAM=METRES");
+  command->add_flag("--trust-stamps", arguments->trust_stamps,
+                    "Seek no delays between cameras: they were triggered together");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout");
   command->footer(
       "Verdict: good, usable or bad, and why. A bad calibration is not written (exit code 1).\n"
       "The scale comes from body coordinates, from two given poses, or from --scale; otherwise it is "
-      "arbitrary.");
+      "arbitrary.\n"
+      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say: how much later "
+      "than "
+      "the\n"
+      "first each of them saw is found from how the target moves, told, and taken into account.");
   command->callback([arguments, &exit_code] { exit_code = calibrate(*arguments); });
 }
 

@@ -165,11 +165,18 @@ class RealRig(Calibrate):
                   newline="", encoding="utf-8") as file:
             rows = [(r["sync_index"], r["cam_id"], r["img_loc_x"], r["img_loc_y"], r["keypoint_id"])
                     for r in csv.DictReader(file)]
-        code, report = self.rig(self.write_rows(rows, "time_s,camera,u_px,v_px,marker"), rig=rig)
-        self.assertEqual(code, 0, report)
-        for camera in report["cameras"]:
-            self.assertLessEqual(camera["reprojection_rms_px"], self.LIMITS[camera["id"]], camera)
-            self.assertLessEqual(camera["rejected"], 0.01 * camera["observations"], camera)
+        table = self.write_rows(rows, "time_s,camera,u_px,v_px,marker")
+        for trust in ([], ["--trust-stamps"]):
+            code, report = self.rig(table, *trust, rig=rig)
+            self.assertEqual(code, 0, report)
+            for camera in report["cameras"]:
+                self.assertLessEqual(camera["reprojection_rms_px"], self.LIMITS[camera["id"]], camera)
+                self.assertLessEqual(camera["rejected"], 0.01 * camera["observations"], camera)
+            if trust:
+                self.assertEqual({camera["late_s"] for camera in report["cameras"]}, {0.0})
+            else:  # nothing triggered the second webcam: three quarters of a period of 1 s
+                self.assertAlmostEqual(report["cameras"][1]["late_s"], -0.72, delta=0.1)
+                self.assertLess(report["cameras"][1]["reprojection_rms_px"], 1.0)
 
 
 class Intrinsics(Calibrate):

@@ -187,6 +187,74 @@ TEST(RigCalibration, CovarianceOfAFreeBoardRigIsTrue) {
   EXPECT_NEAR(nees / kRuns, 6.0, 3.0);
 }
 
+/// Webcams: equal stamps, exposures up to a frame apart.
+RecordingOptions freeRunning(double duration_s) {
+  RecordingOptions recording;
+  recording.duration_s = duration_s;
+  recording.late_s = {0.0, -0.02, 0.012, 0.005};
+  return recording;
+}
+
+/// Within 3 % of a period: the noise of the light's places pulls a delay that much.
+void expectDelays(const RigCalibration& solved, const std::vector<double>& late_s) {
+  EXPECT_TRUE(solved.delays);
+  for (std::size_t c = 0; c < late_s.size(); ++c) EXPECT_NEAR(solved.cameras[c].late_s, late_s[c], 1e-3) << c;
+}
+
+TEST(RigCalibration, DelaysBetweenCamerasAreFoundByALight) {
+  const RecordingOptions recording = freeRunning(20.0);
+  const MadeRecording made = wavedLight(recording, 21);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
+  expectDelays(solved, recording.late_s);
+  const PoseErrors errors = poseErrors(made.cameras, posesOf(solved), true);
+  RigCalibrationOptions trusting;
+  trusting.trust_stamps = true;
+  const RigCalibration trusted = solve(made.unposed(), made.rows, trusting);
+  EXPECT_FALSE(trusted.delays);
+  EXPECT_LT(errors.metres, 0.2 * poseErrors(made.cameras, posesOf(trusted), true).metres);
+  EXPECT_LT(errors.metres, 0.01);
+}
+
+TEST(RigCalibration, DelaysBetweenCamerasAreFoundByABoard) {
+  const RecordingOptions recording = freeRunning(4.0);
+  const MadeRecording made = wavedBoard(recording, 22);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(solved.verdict, RigVerdict::kGood) << reasonsOf(solved);
+  expectDelays(solved, recording.late_s);
+  EXPECT_LT(poseErrors(made.cameras, posesOf(solved), false).metres, 0.005);
+}
+
+TEST(RigCalibration, CamerasTriggeredTogetherHaveNoDelays) {
+  for (const std::uint64_t seed : {31U, 32U, 33U, 34U, 35U, 36U}) {
+    RecordingOptions recording;
+    recording.duration_s = 6.0;
+    recording.outliers = 0.05;
+    EXPECT_FALSE(solve(wavedLight(recording, seed).unposed(), wavedLight(recording, seed).rows).delays)
+        << seed;
+  }
+}
+
+TEST(RigCalibration, CovarianceKnowsOfTheDelays) {
+  constexpr int kRuns = 16;
+  double nees = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    RecordingOptions recording = freeRunning(8.0);
+    recording.cameras = 3;
+    const MadeRecording made = wavedLight(recording, 300 + static_cast<std::uint64_t>(run));
+    std::vector<RigCamera> cameras = made.cameras;
+    cameras[2].camera_from_world.reset();
+    const RigCalibration solved = solve(cameras, made.rows);
+    ASSERT_TRUE(solved.delays) << run;
+    ASSERT_TRUE(solved.cameras[2].covariance.has_value()) << run;
+    const Vector6d e =
+        cameraPerturbation(*made.cameras[2].camera_from_world, *solved.cameras[2].camera_from_world);
+    nees += e.dot(solved.cameras[2].covariance->ldlt().solve(e));
+  }
+  // Standard deviation of the mean of a chi square of 6: sqrt(12 / 16) = 0.87.
+  EXPECT_NEAR(nees / kRuns, 6.0, 2.6);
+}
+
 TEST(RigCalibration, CameraThatSharesNothingIsNamed) {
   MadeRecording made = wavedLight({}, 20);
   for (PointRow& row : made.rows.rows)

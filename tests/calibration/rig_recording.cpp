@@ -67,7 +67,8 @@ MadeRecording record(const Target& target, const RecordingOptions& options, std:
     for (int c = 0; c < options.cameras; ++c) {
       const double shift = options.jitter_s > 0.0 ? random.uniform(-options.jitter_s, options.jitter_s) : 0.0;
       const double time = (k + phase[static_cast<std::size_t>(c)]) / options.rate_hz + shift;
-      const RigidTransform pose = target.moves ? wristAt(time) : RigidTransform{};
+      const double late = options.late_s.empty() ? 0.0 : options.late_s[static_cast<std::size_t>(c)];
+      const RigidTransform pose = target.moves ? wristAt(time + late) : RigidTransform{};
       const RigCamera& camera = made.cameras[static_cast<std::size_t>(c)];
       for (std::size_t m = 0; m < target.in_body.size(); ++m) {
         const auto pixel = camera.model.project(*camera.camera_from_world * (pose * target.in_body[m]));

@@ -18,6 +18,8 @@ struct RecordingOptions {
   double jitter_s = 0.0;  ///< each exposure is off by up to it; time stamps tell the truth
   double dropout = 0.05;
   bool together = true;  ///< else each camera exposes at a time of its own
+  std::vector<double>
+      late_s;  ///< of each camera: it exposes so much later than its stamps say; empty: at them
 };
 
 /// Cameras on a circle of 3 m about the origin, 1 to 2 m high, looking at its middle, with true poses and

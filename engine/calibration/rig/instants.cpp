@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace helical {
 namespace {
@@ -23,21 +24,35 @@ bool sameTrack(const PointRow& a, const PointRow& b) {
   return a.camera == b.camera && a.marker == b.marker;
 }
 
-/// Steps [px] from each row of a track to its next one.
-double usualStep(const PointRows& rows, std::span<const std::size_t> track) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < track.size(); ++i)
-    steps.push_back((rows.rows[track[i]].pixel - rows.rows[track[i - 1]].pixel).norm());
-  return median(steps);
-}
+/// Which neighbours in a track belong together: neither far apart in time, nor by a jump far beyond the
+/// track's usual step.
+class Bridge {
+ public:
+  /// `pixel_of(i)`: of the track's i-th row.
+  template <typename PixelOf>
+  Bridge(std::size_t rows, double period_s, const PixelOf& pixel_of)
+      : longest_gap_s_(kLongestGap * period_s) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < rows; ++i) steps.push_back((pixel_of(i) - pixel_of(i - 1)).norm());
+    largest_step_px_ = std::max(kSmallStepPx, kUsualSteps * median(steps));
+  }
+
+  bool holds(const PointRow& a, const PointRow& b) const {
+    const double gap = b.time_s - a.time_s;
+    return gap > 0.0 && gap <= longest_gap_s_ && (b.pixel - a.pixel).norm() <= largest_step_px_;
+  }
+
+ private:
+  double longest_gap_s_, largest_step_px_ = 0.0;
+};
 
 void interpolateTrack(const PointRows& rows, std::span<const std::size_t> track, double start_s,
                       double period_s, std::vector<InstantRow>& out) {
-  const double largest_step = std::max(kSmallStepPx, kUsualSteps * usualStep(rows, track));
+  const Bridge bridge(track.size(), period_s, [&](std::size_t i) { return rows.rows[track[i]].pixel; });
   for (std::size_t i = 1; i < track.size(); ++i) {
     const PointRow &a = rows.rows[track[i - 1]], &b = rows.rows[track[i]];
+    if (!bridge.holds(a, b)) continue;
     const double gap = b.time_s - a.time_s;
-    if (!(gap > 0.0) || gap > kLongestGap * period_s || (b.pixel - a.pixel).norm() > largest_step) continue;
     const auto first = static_cast<std::int64_t>(std::ceil((a.time_s - start_s) / period_s));
     for (std::int64_t k = first;; ++k) {
       const double time = start_s + static_cast<double>(k) * period_s;
@@ -49,9 +64,23 @@ void interpolateTrack(const PointRows& rows, std::span<const std::size_t> track,
       row.row.pixel = a.pixel + share * (b.pixel - a.pixel);
       if (!rows.in_body.empty()) row.in_body = rows.in_body[track[i - 1]];
       row.instant = k;
+      row.motion.velocity = (b.pixel - a.pixel) / gap;
       out.push_back(row);
     }
   }
+}
+
+/// The parabola through a row and its neighbours on both sides, else the line to the one that there is.
+PixelMotion motionAt(const PointRow* before, const PointRow& row, const PointRow* after) {
+  const auto slope = [](const PointRow& a, const PointRow& b) -> Eigen::Vector2d {
+    return (b.pixel - a.pixel) / (b.time_s - a.time_s);
+  };
+  if (before == nullptr && after == nullptr) return {};
+  if (before == nullptr) return {slope(row, *after), Eigen::Vector2d::Zero()};
+  if (after == nullptr) return {slope(*before, row), Eigen::Vector2d::Zero()};
+  const Eigen::Vector2d in = slope(*before, row), out = slope(row, *after);
+  const double gap_in = row.time_s - before->time_s, gap_out = after->time_s - row.time_s;
+  return {(in * gap_out + out * gap_in) / (gap_in + gap_out), 2.0 * (out - in) / (gap_in + gap_out)};
 }
 
 }  // namespace
@@ -95,7 +124,10 @@ std::vector<InstantRow> clusterInTime(const PointRows& rows, double window_s) {
       start = row.time_s;
       ++instant;
     }
-    out.push_back({row, rows.in_body.empty() ? Eigen::Vector3d::Zero().eval() : rows.in_body[i], instant});
+    InstantRow& added = out.emplace_back();
+    added.row = row;
+    if (!rows.in_body.empty()) added.in_body = rows.in_body[i];
+    added.instant = instant;
   }
   return out;
 }
@@ -117,6 +149,29 @@ std::vector<InstantRow> interpolateInTime(const PointRows& rows, double period_s
     i = j;
   }
   return out;
+}
+
+void measureMotion(std::vector<InstantRow>& rows, double period_s) {
+  // A body's points may go without names: their places in it tell them apart.
+  const auto key = [&](std::size_t i) {
+    const InstantRow& r = rows[i];
+    return std::tuple(r.row.camera, r.row.marker, r.in_body.x(), r.in_body.y(), r.in_body.z());
+  };
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t j = i;
+    while (j < order.size() && key(order[i]) == key(order[j])) ++j;
+    const auto at = [&](std::size_t k) -> const PointRow& { return rows[order[i + k]].row; };
+    const Bridge bridge(j - i, period_s, [&](std::size_t k) { return at(k).pixel; });
+    for (std::size_t k = 0; k < j - i; ++k) {
+      const PointRow* before = k > 0 && bridge.holds(at(k - 1), at(k)) ? &at(k - 1) : nullptr;
+      const PointRow* after = k + 1 < j - i && bridge.holds(at(k), at(k + 1)) ? &at(k + 1) : nullptr;
+      rows[order[i + k]].motion = motionAt(before, at(k), after);
+    }
+    i = j;
+  }
 }
 
 }  // namespace helical

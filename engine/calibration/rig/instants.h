@@ -6,11 +6,18 @@
 
 namespace helical {
 
+/// How a track moves through a pixel: its parabola there [px/s, px/s^2]. Zero where no neighbour tells.
+struct PixelMotion {
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();
+};
+
 /// A row at the instant (an integer) that it belongs to.
 struct InstantRow {
   PointRow row;
   Eigen::Vector3d in_body = Eigen::Vector3d::Zero();
   std::int64_t instant = 0;
+  PixelMotion motion;
 };
 
 /// How the cameras' clocks and exposures stand to each other.
@@ -28,5 +35,9 @@ std::vector<InstantRow> clusterInTime(const PointRows& rows, double window_s);
 /// two and a half periods is not bridged, nor a jump far beyond the track's usual step: one end of it is no
 /// marker.
 std::vector<InstantRow> interpolateInTime(const PointRows& rows, double period_s);
+
+/// Fills in how each row's track moves, from the rows before and after it that interpolateInTime would
+/// bridge.
+void measureMotion(std::vector<InstantRow>& rows, double period_s);
 
 }  // namespace helical

@@ -3,7 +3,9 @@
 #include <ceres/ceres.h>
 
 #include <array>
+#include <cmath>
 
+#include "engine/calibration/rig/camera_delays.h"
 #include "engine/calibration/rig/sighting_derivatives.h"
 #include "engine/geometry/camera_perturbation.h"
 
@@ -68,9 +70,10 @@ class BodyManifold final : public PoseManifold {
   }
 };
 
-/// Predicted less seen pixel. Parameters: camera, then the point or the body's pose.
+/// Predicted less seen pixel, where it was when the table says. Parameters: camera, the point or the body's
+/// pose, how much later the camera saw.
 template <int kItemSize>
-class SightingCost final : public ceres::SizedCostFunction<2, 7, kItemSize> {
+class SightingCost final : public ceres::SizedCostFunction<2, 7, kItemSize, 1> {
  public:
   SightingCost(const CameraModel& camera, const Sighting& sighting) : camera_(camera), sighting_(sighting) {}
 
@@ -87,8 +90,10 @@ class SightingCost final : public ceres::SizedCostFunction<2, 7, kItemSize> {
     }
     Eigen::Matrix<double, 2, 3> d_pixel;
     const auto pixel = camera_.project(camera_from_world * point, &d_pixel);
+    const double late = parameters[2][0];
+    const PixelMotion& motion = sighting_.motion;
     Eigen::Map<Eigen::Vector2d>{residuals} =
-        pixel ? (*pixel - sighting_.pixel).eval() : Eigen::Vector2d::Constant(kUnseenPx);
+        pixel ? (*pixel - pixelBefore(sighting_, late)).eval() : Eigen::Vector2d::Constant(kUnseenPx);
     if (jacobians == nullptr) return true;
     const SightingDerivatives d = sightingDerivatives(camera_from_world, point, arm, d_pixel);
     if (jacobians[0] != nullptr) {
@@ -104,6 +109,11 @@ class SightingCost final : public ceres::SizedCostFunction<2, 7, kItemSize> {
       } else {
         if (pixel) out = d.point;
       }
+    }
+    if (jacobians[2] != nullptr) {
+      Eigen::Map<Eigen::Vector2d> out(jacobians[2]);
+      out.setZero();
+      if (pixel) out = motion.velocity - late * motion.acceleration;
     }
     return true;
   }
@@ -134,6 +144,35 @@ class ScaleCost final : public ceres::SizedCostFunction<1, 7> {
   double distance_;
 };
 
+/// Takes back what a delay gains by averaging noise: see noiseAfterDelay(). Also keeps the delay of a camera
+/// that saw nothing move at zero.
+class AveragingCost final : public ceres::SizedCostFunction<1, 1> {
+ public:
+  /// `residuals`: about how many of the camera's own.
+  AveragingCost(const SightingTable& table, std::size_t camera, double residuals, double sigma_px)
+      : table_(table),
+        camera_(camera),
+        weight_(std::sqrt(std::max(1.0, residuals)) * std::max(kLeastSigmaPx, sigma_px)) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const double total = table_.late_s[camera_] + parameters[0][0];
+    const DelayNoise noise = noiseAfterDelay(table_.timing, total / table_.period_s);
+    const double left = std::max(kLeastLeft, kMostNoise - noise.variance);
+    residuals[0] = weight_ * std::sqrt(left);
+    if (jacobians != nullptr && jacobians[0] != nullptr)
+      jacobians[0][0] =
+          left > kLeastLeft ? -0.5 * weight_ * noise.slope / (std::sqrt(left) * table_.period_s) : 0.0;
+    return true;
+  }
+
+ private:
+  static constexpr double kMostNoise = 20.0, kLeastLeft = 1e-3;
+  static constexpr double kLeastSigmaPx = 1e-3;
+  const SightingTable& table_;
+  std::size_t camera_;
+  double weight_;
+};
+
 class Bundle {
  public:
   Bundle(RigState& state, std::span<const RigCamera> cameras, const SightingTable& table,
@@ -144,9 +183,11 @@ class Bundle {
         body_(table.kind == TargetKind::kBody),
         camera_blocks_(cameras.size()),
         item_blocks_(static_cast<std::size_t>(table.items)),
+        late_blocks_(cameras.size(), 0.0),
         ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
     if (options.robust_scale_px > 0.0) loss_ = std::make_unique<ceres::CauchyLoss>(options.robust_scale_px);
     for (const Sighting& s : table.sightings) addSighting(cameras, s);
+    if (options_.late_s != nullptr) takeBackAveraging();
     holdGauge();
   }
 
@@ -176,6 +217,9 @@ class Bundle {
       problem_.AddParameterBlock(camera, 7, &camera_manifold_);
       ordering_->AddElementToGroup(camera, 1);
       if (state_.fixed[c]) problem_.SetParameterBlockConstant(camera);
+      problem_.AddParameterBlock(&late_blocks_[c], 1);
+      ordering_->AddElementToGroup(&late_blocks_[c], 1);
+      if (options_.late_s == nullptr) problem_.SetParameterBlockConstant(&late_blocks_[c]);
     }
     if (!problem_.HasParameterBlock(item)) {
       if (body_)
@@ -191,7 +235,25 @@ class Bundle {
       cost = new SightingCost<7>(cameras[c].model, s);
     else
       cost = new SightingCost<3>(cameras[c].model, s);
-    problem_.AddResidualBlock(cost, loss_.get(), camera, item);
+    problem_.AddResidualBlock(cost, loss_.get(), camera, item, &late_blocks_[c]);
+  }
+
+  /// The items' own unknowns take up their share of the residuals.
+  void takeBackAveraging() {
+    std::vector<double> residuals(camera_blocks_.size(), 0.0);
+    double all = 0.0, items = 0.0;
+    for (const Sighting& s : table_.sightings) {
+      if (!s.inlier) continue;
+      residuals[static_cast<std::size_t>(s.camera)] += 2.0;
+      all += 2.0;
+    }
+    for (const Block& block : item_blocks_)
+      if (problem_.HasParameterBlock(block.data())) items += body_ ? 6.0 : 3.0;
+    const double share = all > 0.0 ? std::max(0.0, 1.0 - items / all) : 0.0;
+    for (std::size_t c = 0; c < camera_blocks_.size(); ++c)
+      if (problem_.HasParameterBlock(&late_blocks_[c]))
+        problem_.AddResidualBlock(new AveragingCost(table_, c, share * residuals[c], options_.sigma_px),
+                                  nullptr, &late_blocks_[c]);
   }
 
   void holdGauge() {
@@ -205,6 +267,7 @@ class Bundle {
     }
     if (!held) return;
     problem_.SetParameterBlockConstant(camera_blocks_[*held].data());
+    problem_.SetParameterBlockConstant(&late_blocks_[*held]);
     if (!body_ && fixed < 2) holdScale(*held);
   }
 
@@ -223,6 +286,7 @@ class Bundle {
   }
 
   void takeOver() {
+    if (options_.late_s != nullptr) *options_.late_s = late_blocks_;
     for (std::size_t c = 0; c < camera_blocks_.size(); ++c)
       if (problem_.HasParameterBlock(camera_blocks_[c].data()) && !state_.fixed[c])
         state_.camera_from_world[c] = toTransform(camera_blocks_[c].data());
@@ -251,6 +315,7 @@ class Bundle {
   BodyManifold body_manifold_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::vector<Block> camera_blocks_, item_blocks_;
+  std::vector<double> late_blocks_;
   ceres::Problem problem_{problemOptions()};
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
 };

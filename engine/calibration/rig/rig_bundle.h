@@ -10,6 +10,10 @@ struct BundleOptions {
   double robust_scale_px = 0.0;  ///< Cauchy's; 0 is plain least squares
   int max_iterations = 100;
   bool only_cameras = false;  ///< items stay where they are
+  /// If given, one of each camera [s]: how much later than the table says it saw is found as well, with
+  /// pixels of standard deviation `sigma_px`. That of the camera whose pose holds the world is zero.
+  std::vector<double>* late_s = nullptr;
+  double sigma_px = 0.0;
 };
 
 /// Bundle adjustment over the sightings that are inliers: cameras that are not fixed, and the points or body

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/calibration/rig/camera_delays.h"
 #include "engine/calibration/rig/chain_bodies.h"
 #include "engine/calibration/rig/chain_points.h"
 #include "engine/calibration/rig/point_structure.h"
@@ -28,6 +29,8 @@ constexpr double kFewBeyond = 0.01;  // of the sightings
 constexpr double kRobustSigmas = 3.0;
 constexpr double kTightestGatePx = 0.5;
 constexpr int kGateRounds = 4;
+constexpr int kDelayRounds = 8;
+constexpr double kSettledPeriods = 1e-3;  // a delay that changes by less has settled
 // Interpolation averages neighbours, which makes pixels look better than they are.
 constexpr double kInterpolationFlatters = 1.2;
 
@@ -91,24 +94,65 @@ void refine(Solution& s, std::span<const RigCamera> cameras) {
       static_cast<double>(inliers) / static_cast<double>(std::max<std::size_t>(1, s.table.sightings.size()));
 }
 
+/// Residuals [px, per axis of one without delay] of the sightings that are inliers in both.
+std::pair<std::vector<Eigen::Vector2d>, std::vector<Eigen::Vector2d>> commonResiduals(
+    const Solution& without, const Solution& with, std::span<const RigCamera> cameras) {
+  std::pair<std::vector<Eigen::Vector2d>, std::vector<Eigen::Vector2d>> both;
+  for (std::size_t i = 0; i < with.table.sightings.size(); ++i) {
+    const Sighting &a = without.table.sightings[i], &b = with.table.sightings[i];
+    if (!a.inlier || !b.inlier) continue;
+    const auto of_a = sightingResidual(without.state, cameras, without.table, a);
+    const auto of_b = sightingResidual(with.state, cameras, with.table, b);
+    if (!of_a || !of_b) continue;
+    const double periods = with.table.late_s[static_cast<std::size_t>(b.camera)] / with.table.period_s;
+    both.first.push_back(*of_a);
+    both.second.push_back(*of_b / std::sqrt(noiseAfterDelay(with.table.timing, periods).variance));
+  }
+  return both;
+}
+
+/// Finds how much later than the first each camera saw, and keeps it if it explains the recording better.
+void findDelays(Solution& s, std::span<const RigCamera> cameras) {
+  if (s.table.kind == TargetKind::kStillMarkers || s.state.solvedCameras() < 2) return;
+  Solution timed = s;
+  timed.table.late_s.assign(cameras.size(), 0.0);
+  for (int round = 0; round < kDelayRounds; ++round) {
+    const double sigma = sightingSigma(timed.state, cameras, timed.table);
+    gate(timed, cameras, kWideGateSigmas * sigma);
+    std::vector<double> later_s(cameras.size(), 0.0);
+    adjustBundle(timed.state, cameras, timed.table, {kRobustSigmas * sigma, 100, false, &later_s, sigma});
+    takeOffDelays(timed.table, cameras, later_s);
+    if (!delaysAreInReach(timed.table)) return;
+    const bool settled = std::all_of(later_s.begin(), later_s.end(), [&](double later) {
+      return std::abs(later) < kSettledPeriods * timed.table.period_s;
+    });
+    if (settled) break;
+  }
+  refine(timed, cameras);
+  const auto [without, with] = commonResiduals(s, timed, cameras);
+  if (timed.explained >= s.explained - kFewBeyond && delaysAreReal(without, with, cameras.size()))
+    s = std::move(timed);
+}
+
 Solution solveFreely(SightingTable table, std::span<const RigCamera> cameras,
-                     const ProgressCallback& progress) {
+                     const RigCalibrationOptions& options, const ProgressCallback& progress) {
   Solution s;
   s.table = std::move(table);
   const double tolerance = roughTolerance(cameras);
   s.state = s.table.kind == TargetKind::kBody ? chainBodies(cameras, s.table, tolerance, progress)
                                               : chainPoints(cameras, s.table, tolerance, progress);
   refine(s, cameras);
+  if (!options.trust_stamps) findDelays(s, cameras);
   return s;
 }
 
 /// The likelier timing: the one whose residuals are smaller, if it explains about as much.
 Solution solveLikeliest(std::vector<SightingTable> tables, std::span<const RigCamera> cameras,
-                        const ProgressCallback& progress) {
+                        const RigCalibrationOptions& options, const ProgressCallback& progress) {
   std::optional<Solution> best;
   double least = 0.0;
   for (SightingTable& table : tables) {
-    Solution s = solveFreely(std::move(table), cameras, progress);
+    Solution s = solveFreely(std::move(table), cameras, options, progress);
     const double flatters = s.table.timing == Timing::kInterpolated ? kInterpolationFlatters : 1.0;
     const double score = s.state.solvedCameras() < 2
                              ? 1e300
@@ -158,6 +202,7 @@ CalibratedCamera reportCamera(const Solution& s, std::span<const RigCamera> came
   c.reprojection_rms_px = inliers > 0 ? std::sqrt(squares / static_cast<double>(inliers)) : 0.0;
   c.image_parts = static_cast<int>(parts.size());
   if (c.camera_from_world) c.distance_m = medianDistance(s, index);
+  if (!s.table.late_s.empty()) c.late_s = s.table.late_s[index];
   c.covariance = covariance;
   if (covariance) {
     const auto largest = [](const Eigen::Matrix3d& block) {
@@ -207,7 +252,7 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
                             const RigCalibrationOptions& options, const ProgressCallback& progress) {
   refuseContradictingScales(cameras, rows, options);
   const std::size_t given = givenCount(cameras);
-  Solution s = solveLikeliest(bringTogether(std::move(rows), cameras, file), cameras, progress);
+  Solution s = solveLikeliest(bringTogether(std::move(rows), cameras, file), cameras, options, progress);
   const bool body = s.table.kind == TargetKind::kBody;
   RigCalibration result;
   result.metric = body || given > 1 || options.scale;
@@ -228,6 +273,7 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
   result.items = s.table.items;
   result.thinned_by = s.table.thinned_by;
   result.unmatched = s.table.unmatched;
+  result.delays = !s.table.late_s.empty();
   const bool scale_is_measured = body || given > 1;
   const RigCovariance covariance =
       rigCovariance(s.state, cameras, s.table,

@@ -20,6 +20,8 @@ struct KnownDistance {
 
 struct RigCalibrationOptions {
   std::optional<KnownDistance> scale;
+  bool trust_stamps =
+      false;  ///< cameras were triggered together, or stamps tell of exposures: no delay is sought
 };
 
 enum class RigVerdict { kGood, kUsable, kBad };
@@ -37,6 +39,7 @@ struct CalibratedCamera {
   double orientation_sigma_deg = 0.0;
   double distance_m = 0.0;  ///< median, to what it saw
   int image_parts = 0;      ///< of 16 parts of the image, those with inliers
+  double late_s = 0.0;      ///< it saw so much later than its time stamps say, against the first one
 };
 
 struct RigCalibration {
@@ -51,6 +54,7 @@ struct RigCalibration {
   int thinned_by = 1;
   long unmatched = 0;
   double sigma_px = 0.0;         ///< of a pixel, per axis
+  bool delays = false;           ///< cameras were not exposed together: their `late_s` is taken off
   double given_off_deg = 0.0;    ///< how far given poses and the recording disagree
   double given_off_share = 0.0;  ///< the same of places, over the distance to what was seen
   std::vector<CalibratedCamera> cameras;

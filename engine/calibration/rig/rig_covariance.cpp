@@ -16,10 +16,18 @@ constexpr double kSmallestEigenvalue = 1e-12;  // over the largest: below it a d
 class ReducedSystem {
  public:
   ReducedSystem(const RigState& state, std::span<const RigCamera> cameras, const SightingTable& table)
-      : state_(state), cameras_(cameras), table_(table), place_(cameras.size(), -1) {
+      : state_(state),
+        cameras_(cameras),
+        table_(table),
+        stride_(table.late_s.empty() ? 6 : 7),
+        place_(cameras.size(), -1) {
     for (std::size_t c = 0; c < cameras.size(); ++c)
       if (state.camera_from_world[c] && !state.fixed[c]) place_[c] = unknown_++;
-    information = Eigen::MatrixXd::Zero(6 * unknown_, 6 * unknown_);
+    information = Eigen::MatrixXd::Zero(stride_ * unknown_, stride_ * unknown_);
+    // As in the bundle: the delay of a camera that saw nothing move is not open.
+    if (stride_ > 6)
+      for (int k = 6; k < information.rows(); k += stride_)
+        information(k, k) = 1.0 / (table.period_s * table.period_s);
     const auto starts = itemStarts(table);
     for (std::size_t i = 0; i < static_cast<std::size_t>(table.items); ++i)
       addItem(std::span(table.sightings).subspan(starts[i], starts[i + 1] - starts[i]));
@@ -29,15 +37,17 @@ class ReducedSystem {
   double squares = 0.0;
   long freedom = 0;
 
-  int place(std::size_t camera) const { return place_[camera]; }
-  int unknown() const { return unknown_; }
+  /// First of a camera's unknowns: its pose's six, then how late it saw if that was found. -1: none.
+  int place(std::size_t camera) const { return place_[camera] < 0 ? -1 : stride_ * place_[camera]; }
+  int stride() const { return stride_; }
+  int size() const { return stride_ * unknown_; }
 
  private:
   void addItem(std::span<const Sighting> sightings) {
     const bool body = table_.kind == TargetKind::kBody;
     const Eigen::Index size = body ? 6 : 3;
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(6 * unknown_, size);
+    Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(stride_ * unknown_, size);
     std::vector<int> touched;
     long rows = 0;
     for (const Sighting& s : sightings) {
@@ -58,8 +68,11 @@ class ReducedSystem {
       own += item.transpose() * item;
       const int k = place_[camera];
       if (k < 0) continue;
-      information.block<6, 6>(6 * k, 6 * k) += d.camera.transpose() * d.camera;
-      mixed.middleRows<6>(6 * k) += d.camera.transpose() * item;
+      Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 7> own_camera(2, stride_);
+      own_camera.leftCols<6>() = d.camera;
+      if (stride_ > 6) own_camera.col(6) = s.motion.velocity;
+      information.block(stride_ * k, stride_ * k, stride_, stride_) += own_camera.transpose() * own_camera;
+      mixed.middleRows(stride_ * k, stride_) += own_camera.transpose() * item;
       if (touched.empty() || touched.back() != k) touched.push_back(k);
     }
     if (rows == 0) return;
@@ -68,18 +81,20 @@ class ReducedSystem {
     const Eigen::MatrixXd inverse = own.completeOrthogonalDecomposition().pseudoInverse();
     for (const int a : touched)
       for (const int b : touched)
-        information.block<6, 6>(6 * a, 6 * b) -=
-            mixed.middleRows<6>(6 * a) * inverse * mixed.middleRows<6>(6 * b).transpose();
+        information.block(stride_ * a, stride_ * b, stride_, stride_) -=
+            mixed.middleRows(stride_ * a, stride_) * inverse *
+            mixed.middleRows(stride_ * b, stride_).transpose();
   }
 
   const RigState& state_;
   std::span<const RigCamera> cameras_;
   const SightingTable& table_;
+  int stride_;
   std::vector<int> place_;
   int unknown_ = 0;
 };
 
-/// Rows of what the gauge holds: the first camera's pose, and the distance of two cameras.
+/// Rows of what the gauge holds: all of the first camera's unknowns, and the distance of two cameras.
 Eigen::MatrixXd gauge(const ReducedSystem& system, const RigState& state,
                       const std::optional<KnownDistance>& distance) {
   const bool frame = [&] {
@@ -87,17 +102,16 @@ Eigen::MatrixXd gauge(const ReducedSystem& system, const RigState& state,
       if (state.fixed[c]) return false;
     return true;
   }();
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero((frame ? 6 : 0) + (distance ? 1 : 0), 6 * system.unknown());
-  if (frame) rows.topLeftCorner<6, 6>().setIdentity();
+  const int held = frame ? system.stride() : 0;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(held + (distance ? 1 : 0), system.size());
+  rows.topLeftCorner(held, held).setIdentity();
   if (distance) {
     const Eigen::Vector3d along = (state.camera_from_world[distance->a]->inverseTranslation() -
                                    state.camera_from_world[distance->b]->inverseTranslation())
                                       .normalized();
     const Eigen::Index last = rows.rows() - 1;
-    if (const int k = system.place(distance->a); k >= 0)
-      rows.block<1, 3>(last, 6 * k + 3) = along.transpose();
-    if (const int k = system.place(distance->b); k >= 0)
-      rows.block<1, 3>(last, 6 * k + 3) = -along.transpose();
+    if (const int k = system.place(distance->a); k >= 0) rows.block<1, 3>(last, k + 3) = along.transpose();
+    if (const int k = system.place(distance->b); k >= 0) rows.block<1, 3>(last, k + 3) = -along.transpose();
   }
   return rows;
 }
@@ -109,7 +123,7 @@ RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> ca
   RigCovariance result;
   result.cameras.resize(cameras.size());
   const ReducedSystem system(state, cameras, table);
-  const Eigen::Index size = 6 * system.unknown();
+  const Eigen::Index size = system.size();
   const Eigen::MatrixXd held = size > 0 ? gauge(system, state, distance) : Eigen::MatrixXd();
   const double freedom = static_cast<double>(system.freedom - size + held.rows());
   if (freedom <= 0.0) return result;
@@ -131,7 +145,7 @@ RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> ca
       eigen.eigenvectors().transpose() * free_directions.transpose() * (result.sigma_px * result.sigma_px);
   for (std::size_t c = 0; c < cameras.size(); ++c)
     if (const int k = system.place(c); k >= 0) {
-      const Matrix6d block = covariance.block<6, 6>(6 * k, 6 * k);
+      const Matrix6d block = covariance.block<6, 6>(k, k);
       result.cameras[c] = 0.5 * (block + block.transpose());
     }
   return result;

@@ -120,9 +120,11 @@ std::vector<bool> thin(const std::vector<std::vector<std::int32_t>>& cameras_of_
 /// it sees at four points at least takes part in the residuals.
 class TableMaker {
  public:
-  TableMaker(TargetKind kind, Timing timing, std::span<const RigCamera> cameras) : cameras_(cameras) {
+  TableMaker(TargetKind kind, Timing timing, double period_s, std::span<const RigCamera> cameras)
+      : cameras_(cameras) {
     table_.kind = kind;
     table_.timing = timing;
+    table_.period_s = period_s;
     table_.ambiguous.assign(cameras.size(), 0);
   }
 
@@ -192,6 +194,7 @@ class TableMaker {
       s.pixel = r.row.pixel;
       s.bearing = cameras_[static_cast<std::size_t>(s.camera)].model.bearing(s.pixel);
       s.in_body = r.in_body;
+      s.motion = r.motion;
       table_.sightings.push_back(s);
     }
     table_.item_time_s.push_back(item.front().row.time_s);
@@ -228,7 +231,7 @@ std::vector<SightingTable> bringTogether(PointRows rows, std::span<const RigCame
                                                    : TargetKind::kMarkers;
   if (kind == TargetKind::kMarkers && standStill(rows, cameras.size())) kind = TargetKind::kStillMarkers;
   const auto make = [&](Timing timing, std::vector<InstantRow> instants) {
-    return TableMaker(kind, timing, cameras).make(std::move(instants));
+    return TableMaker(kind, timing, rhythm.period_s, cameras).make(std::move(instants));
   };
   std::vector<SightingTable> tables;
   if (kind == TargetKind::kStillMarkers) {
@@ -237,8 +240,9 @@ std::vector<SightingTable> bringTogether(PointRows rows, std::span<const RigCame
     const bool synchronised = rhythm.shared_stamps >= kSynchronised;
     if (!synchronised)
       tables.push_back(make(Timing::kInterpolated, interpolateInTime(rows, rhythm.period_s)));
-    tables.push_back(
-        make(Timing::kTogether, clusterInTime(rows, synchronised ? kSameInstant : 0.5 * rhythm.period_s)));
+    auto together = clusterInTime(rows, synchronised ? kSameInstant : 0.5 * rhythm.period_s);
+    measureMotion(together, rhythm.period_s);
+    tables.push_back(make(Timing::kTogether, std::move(together)));
   }
   std::erase_if(tables, [](const SightingTable& table) { return table.items == 0; });
   if (tables.empty())

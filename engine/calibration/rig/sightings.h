@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/calibration/rig/instants.h"
 #include "engine/calibration/rig/point_rows.h"
 #include "engine/calibration/rig/rig_camera.h"
 
@@ -29,6 +30,7 @@ struct Sighting {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Vector2d bearing = Eigen::Vector2d::Zero();  ///< x/z, y/z
   Eigen::Vector3d in_body = Eigen::Vector3d::Zero();  ///< metres; of a body's point
+  PixelMotion motion;                                 ///< along the camera's own track
   bool inlier = false;
 };
 
@@ -48,6 +50,10 @@ struct SightingTable {
   long unmatched = 0;           ///< rows that no other camera has a counterpart for
   std::vector<long> ambiguous;  ///< of each camera: rows beside another one of the same marker and instant
   int thinned_by = 1;           ///< every how many-th item was kept
+  double period_s = 0.0;        ///< between a camera's frames
+  /// How much later than its time stamps say each camera saw, against the first one: see camera_delays.h.
+  /// Taken off the pixels. Empty where it was not sought or not found.
+  std::vector<double> late_s;
 };
 
 /// Tables of one recording, the more likely one first: with equal time stamps in most rows there is one, else

@@ -1,0 +1,58 @@
+#include "engine/calibration/rig/camera_delays.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace helical {
+namespace {
+
+constexpr double kReachPeriods = 1.5;
+// Twice the log-likelihood that each delay must bring: five standard deviations and a little for the search.
+constexpr double kLeastGain = 30.0;
+
+double squares(std::span<const Eigen::Vector2d> residuals) {
+  double sum = 0.0;
+  for (const Eigen::Vector2d& r : residuals) sum += r.squaredNorm();
+  return sum;
+}
+
+}  // namespace
+
+Eigen::Vector2d pixelBefore(const Sighting& sighting, double late_s) {
+  return sighting.pixel - late_s * sighting.motion.velocity +
+         (0.5 * late_s * late_s) * sighting.motion.acceleration;
+}
+
+void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std::span<const double> late_s) {
+  for (std::size_t c = 0; c < cameras.size(); ++c) table.late_s[c] += late_s[c];
+  for (Sighting& s : table.sightings) {
+    const auto c = static_cast<std::size_t>(s.camera);
+    s.pixel = pixelBefore(s, late_s[c]);
+    s.motion.velocity -= late_s[c] * s.motion.acceleration;
+    s.bearing = cameras[c].model.bearing(s.pixel);
+  }
+}
+
+DelayNoise noiseAfterDelay(Timing timing, double periods) {
+  const double square = periods * periods;
+  // Pixels that were interpolated lie at any share of their two rows: the mean over it of its squared
+  // weights, (1 - share)^2 + share^2, with the share moved by the delay; over that without one, 2/3.
+  if (timing == Timing::kInterpolated) return {1.0 + 3.0 * square, 6.0 * periods};
+  // Weights of a parabola's three rows: 1 - x^2, (x^2 - x) / 2, (x^2 + x) / 2; the sum of their squares.
+  return {1.0 + 1.5 * square * (square - 1.0), 3.0 * periods * (2.0 * square - 1.0)};
+}
+
+bool delaysAreInReach(const SightingTable& table) {
+  return std::all_of(table.late_s.begin(), table.late_s.end(),
+                     [&](double late) { return std::abs(late) < kReachPeriods * table.period_s; });
+}
+
+bool delaysAreReal(std::span<const Eigen::Vector2d> without, std::span<const Eigen::Vector2d> with,
+                   std::size_t cameras) {
+  const double before = squares(without), after = squares(with);
+  if (!(after > 0.0)) return before > 0.0;
+  const double gain = 2.0 * static_cast<double>(with.size()) * std::log(before / after);
+  return gain > kLeastGain * static_cast<double>(cameras - 1);
+}
+
+}  // namespace helical

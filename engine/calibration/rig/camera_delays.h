@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/calibration/rig/rig_camera.h"
+#include "engine/calibration/rig/sightings.h"
+
+namespace helical {
+
+/// How much later than its time stamps say each camera saw: cameras that nothing triggers expose up to a
+/// period apart, and drivers stamp frames when they arrive. It shows in how what a camera saw lags along its
+/// way through the image, which its own track tells: a parabola through neighbouring pixels.
+
+/// Where a sighting's point was `late_s` before.
+Eigen::Vector2d pixelBefore(const Sighting& sighting, double late_s);
+
+/// Moves the sightings of every camera to where they were `late_s` (one of each) before, and counts it in
+/// `table.late_s`.
+void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std::span<const double> late_s);
+
+/// Variance of a pixel that was moved along its track by so many periods, over that of one that was not, and
+/// its derivative. Between two pixels their noise averages: the residuals of a camera that is moved by half a
+/// period shrink, right or wrong, and least squares alone would move all of them.
+struct DelayNoise {
+  double variance = 1.0, slope = 0.0;
+};
+DelayNoise noiseAfterDelay(Timing timing, double periods);
+
+/// Whether delays stay where a track's parabola holds: one and a half periods.
+bool delaysAreInReach(const SightingTable& table);
+
+/// Whether delays explain more than chance would: residuals (seen less predicted, over their standard
+/// deviation, of the same sightings) without and with them.
+bool delaysAreReal(std::span<const Eigen::Vector2d> without, std::span<const Eigen::Vector2d> with,
+                   std::size_t cameras);
+
+}  // namespace helical

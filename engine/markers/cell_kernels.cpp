@@ -71,8 +71,10 @@ constexpr bool kHasQuads = L == CellLayout::kQuadsColourFirst || L == CellLayout
 /// Bytes that are fetched for a word, and how far before they are needed: memory answers after the time that
 /// so many take to test.
 template <CellLayout L>
-constexpr int kFetched = 64 * kBytesPerCell<L> * (kHasQuads<L> ? 2 : 1);
+constexpr int kFetched = 64 * kBytesPerCell<L>*(kHasQuads<L> ? 2 : 1);
 constexpr int kBytesAhead = 4096;
+/// Words with candidates whose surroundings are fetched; where there are more, the frame is read as a whole.
+constexpr int kFetchedAround = 256;
 
 /// The bytes of a word: 0 where a cell begins, 255 elsewhere.
 template <CellLayout L>
@@ -490,8 +492,17 @@ HWY_INLINE void withRefiner(const CellGrid& grid, const CellGrid* background, co
   }
 }
 
+/// Whether these candidates may be part of a run of `length`, here or over an end of the word.
+HWY_INLINE bool mayHoldRun(std::uint64_t bits, int length) {
+  constexpr std::uint64_t kEnds = std::uint64_t{1} << 63 | 1;
+  std::uint64_t runs = bits;
+  for (int i = 1; i < length; ++i) runs &= bits >> i;
+  return (runs | (bits & kEnds)) != 0;
+}
+
 struct FindInRows {
   const CellGrid& grid;
+  const CellGrid* background;
   const ScannedRows& rows;
   int first_word, end_word, most;
   CellWord* found;
@@ -524,6 +535,17 @@ struct FindInRows {
     for (int w = first_word; w < end_word; ++w) fetchWord<L>(grid.row(y) + w * WordCells<L>::kWordBytes);
   }
 
+  /// What will be read of this word when the rows are done: as far as a square through it reaches, and the
+  /// background. Memory answers while the other rows are tested.
+  template <CellLayout L>
+  HWY_INLINE void fetchAround(int y, int w) const {
+    const int first = std::max(0, y - rows.step + 1), last = std::min(grid.height - 1, y + rows.step - 1);
+    for (int row = first; row <= last; ++row) {
+      if (row != y) fetchWord<L>(grid.row(row) + w * WordCells<L>::kWordBytes);
+      if (background != nullptr) fetchWord<L>(background->row(row) + w * WordCells<L>::kWordBytes);
+    }
+  }
+
   template <CellLayout L, class Refiner>
   HWY_INLINE CellWord* findInRow(const Refiner& refiner, int y, int row_ahead, CellWord* out) const {
     constexpr int kWordBytes = WordCells<L>::kWordBytes;
@@ -538,7 +560,9 @@ struct FindInRows {
       const Place place{cells, cells + grid.second_row};
       if (w < inner_words && HWY_LIKELY(refiner.holdsNone(place))) continue;
       const std::uint64_t bits = refiner.candidates(place);
-      if (bits != 0) *out++ = {y, w, bits};
+      if (!mayHoldRun(bits, rows.step)) continue;
+      if (out - found < kFetchedAround) fetchAround<L>(y, w);
+      *out++ = {y, w, bits};
     }
     for (int w = std::max(first_word, whole_words); w < end_word; ++w) {
       const WordCells<L> cells(grid, y, w);
@@ -549,11 +573,11 @@ struct FindInRows {
   }
 };
 
-int findInRows(const CellGrid& grid, const CellRule& rule, const ScannedRows& rows, int first_word,
-               int end_word, int most, CellWord* found) {
+int findInRows(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+               const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found) {
   int count = 0;
   withRefiner(grid, nullptr, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
-    FindInRows find{grid, rows, first_word, end_word, most, found, 0};
+    FindInRows find{grid, background, rows, first_word, end_word, most, found, 0};
     find.template operator()<L>(refiner);
     count = find.count;
   });
@@ -575,8 +599,8 @@ void classifySome(const CellGrid& grid, const CellGrid* background, const CellRu
   });
 }
 
-void classifyAll(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-                 std::uint64_t* words, std::ptrdiff_t stride) {
+void classifyAll(const CellGrid& grid, const CellGrid* background, const CellRule& rule, std::uint64_t* words,
+                 std::ptrdiff_t stride) {
   withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
     for (int y = 0; y < grid.height; ++y)
       for (int w = 0; w * 64 < grid.width; ++w) words[w * stride + y] = refiner.classifyFull(y, w);
@@ -600,9 +624,9 @@ HWY_EXPORT(classifySome);
 HWY_EXPORT(classifyAll);
 HWY_EXPORT(nameOfTarget);
 
-int findCandidates(const CellGrid& grid, const CellRule& rule, const ScannedRows& rows, int first_word,
-                   int end_word, int most, CellWord* found) {
-  return HWY_DYNAMIC_DISPATCH(findInRows)(grid, rule, rows, first_word, end_word, most, found);
+int findCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+                   const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found) {
+  return HWY_DYNAMIC_DISPATCH(findInRows)(grid, background, rule, rows, first_word, end_word, most, found);
 }
 
 void refineCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,

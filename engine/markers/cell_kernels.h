@@ -40,11 +40,12 @@ struct ScannedRows {
 };
 
 /// The cells of these rows in words [first_word, end_word) that may be a marker's by themselves: a superset
-/// for colours, exact for brightness. Writes the words with any to `found` and returns their number; stops
-/// after the row with which they become more than `most`, and `found` has room for that row, too. The next
-/// rows are fetched into the cache on the way.
-int findCandidates(const CellGrid& grid, const CellRule& rule, const ScannedRows& rows, int first_word,
-                   int end_word, int most, CellWord* found);
+/// for colours, exact for brightness. Writes the words whose cells may be part of `rows.step` in a row to
+/// `found` and returns their number; stops after the row with which they become more than `most`, and `found`
+/// has room for that row, too. The next rows, and frame and background around what is found, are fetched into
+/// the cache on the way.
+int findCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+                   const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found);
 
 /// Replaces candidate bits by exact ones: cells that the rule takes and that differ from the background, if
 /// there is one, by more than the threshold.

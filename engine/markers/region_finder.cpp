@@ -41,7 +41,6 @@ bool RegionFinder::findSparsely(const Task& task) {
                    [&](const WordRect& window) { return scanRows(task, window); }))
     return false;
   if (hit_count_ == 0) return true;
-  fetchAround(task);
   const std::span hits(hits_.data(), hit_count_);
   refineCandidates(task.frame, task.background, task.rule, hits);
   store(task, hits);
@@ -66,21 +65,10 @@ bool RegionFinder::scanRows(const Task& task, const WordRect& window) {
   ScannedRows rows{std::min(opening_reach_, last), step, last, window.bottom};
   if (rows.first < window.top)
     rows.first = std::min(last, rows.first + (window.top - rows.first + step - 1) / step * step);
-  const int found = findCandidates(task.frame, task.rule, rows, window.left, window.right + 1, most,
-                                   hits_.data() + hit_count_);
+  const int found = findCandidates(task.frame, task.background, task.rule, rows, window.left,
+                                   window.right + 1, most, hits_.data() + hit_count_);
   hit_count_ += static_cast<std::size_t>(found);
   return found <= most;
-}
-
-void RegionFinder::fetchAround(const Task& task) const {
-  const int reach = 2 * opening_reach_, bytes = 64 * task.frame.bytesPerCell();
-  for (const CellWord& hit : std::span(hits_.data(), hit_count_))
-    for (int y = std::max(0, hit.row - reach); y <= std::min(mask_.height() - 1, hit.row + reach); ++y)
-      for (int byte = 0; byte < bytes; byte += 64) {
-        const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(hit.word) * bytes + byte;
-        if (y != hit.row) __builtin_prefetch(task.frame.row(y) + place);
-        if (task.background != nullptr) __builtin_prefetch(task.background->row(y) + place);
-      }
 }
 
 void RegionFinder::store(const Task& task, std::span<const CellWord> words) {
@@ -121,7 +109,7 @@ bool RegionFinder::expand(const CellWord& hit) {
   const bool reaches_left = opening_reach_ > 0 && centres << (64 - opening_reach_) != 0;
   const bool reaches_right = opening_reach_ > 0 && centres >> (64 - opening_reach_) != 0;
   const WordRect box = mask_.clip({hit.row - 2 * opening_reach_, hit.row + 2 * opening_reach_,
-                                    hit.word - (reaches_left ? 1 : 0), hit.word + (reaches_right ? 1 : 0)});
+                                   hit.word - (reaches_left ? 1 : 0), hit.word + (reaches_right ? 1 : 0)});
   for (int y = box.top; y <= box.bottom; ++y)
     for (int w = box.left; w <= box.right; ++w) {
       std::uint8_t& known = is_known_[static_cast<std::size_t>(y) * static_cast<std::size_t>(words) +

@@ -50,7 +50,6 @@ class RegionFinder {
   bool findSparsely(const Task& task);
   void findDensely(const Task& task);
   bool scanRows(const Task& task, const WordRect& window);
-  void fetchAround(const Task& task) const;
   bool expandHits();
   bool expand(const CellWord& hit);
   bool addIsland(WordRect box);

@@ -7,6 +7,26 @@
 #include "engine/base/clock.h"
 
 namespace helical {
+namespace {
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What two readings of the clock take by themselves: of a run of ten microseconds, a tenth.
+double clockUs() {
+  constexpr int kReadings = 201;
+  std::vector<double> times_us;
+  for (int i = 0; i < kReadings; ++i) {
+    const TimeNs start = threadCpuTime();
+    times_us.push_back(static_cast<double>(threadCpuTime() - start) * 1e-3);
+  }
+  return medianOf(times_us);
+}
+
+}  // namespace
 
 void SideBySide::add(std::string name, std::function<void()> run, std::function<void()> prepare,
                      int repeats) {
@@ -14,14 +34,15 @@ void SideBySide::add(std::string name, std::function<void()> run, std::function<
 }
 
 void SideBySide::measure(int rounds) {
+  const double clock_us = clockUs();
   for (Contestant& contestant : contestants_) contestant.run();
   for (int round = 0; round < rounds; ++round)
     for (Contestant& contestant : contestants_) {
       if (contestant.prepare) contestant.prepare();
       const TimeNs start = threadCpuTime();
       for (int i = 0; i < contestant.repeats; ++i) contestant.run();
-      const auto taken = static_cast<double>(threadCpuTime() - start);
-      contestant.times_us.push_back(taken * 1e-3 / contestant.repeats);
+      const auto taken_us = static_cast<double>(threadCpuTime() - start) * 1e-3;
+      contestant.times_us.push_back(std::max(0.0, taken_us - clock_us) / contestant.repeats);
     }
 }
 
@@ -29,10 +50,7 @@ double SideBySide::medianUs(const std::string& name) const {
   const auto found = std::find_if(contestants_.begin(), contestants_.end(),
                                   [&name](const Contestant& contestant) { return contestant.name == name; });
   HELICAL_CHECK(found != contestants_.end() && !found->times_us.empty());
-  std::vector<double> times = found->times_us;
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return medianOf(found->times_us);
 }
 
 double SideBySide::ratio(const std::string& slow, const std::string& fast) const {

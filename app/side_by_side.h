@@ -7,7 +7,8 @@
 namespace helical {
 
 /// Times several ways of doing the same thing in one process, in turn, so that a machine that speeds up or
-/// slows down does so for all of them. What counts is the median of the thread's processor time. One thread.
+/// slows down does so for all of them. What counts is the median of the thread's processor time, without what
+/// reading that clock takes. One thread.
 class SideBySide {
  public:
   /// `prepare` runs before every timed `run` and is not timed. A run too short for the clock is repeated

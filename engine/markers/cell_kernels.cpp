@@ -76,23 +76,70 @@ constexpr int kBytesAhead = 4096;
 /// Words with candidates whose surroundings are fetched; where there are more, the frame is read as a whole.
 constexpr int kFetchedAround = 256;
 
-/// The bytes of a word: 0 where a cell begins, 255 elsewhere.
+/// How far vector k of as many as a cell has bytes begins behind the one before: cells begin in other lanes
+/// of each, so that all together fill one vector's lanes.
 template <CellLayout L>
-struct BetweenCells {
-  constexpr BetweenCells() {
-    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = i % kBytesPerCell<L> == 0 ? 0 : 255;
+constexpr std::size_t vectorBegin(std::size_t k) {
+  return k * (hn::MaxLanes(Tag()) - (kHasQuads<L> ? 1 : 0));
+}
+
+/// 255 in the lanes of vector k in which cells begin.
+template <CellLayout L, std::size_t k>
+struct BeginsOfCells {
+  constexpr BeginsOfCells() {
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+      lanes[i] = (vectorBegin<L>(k) + i) % kBytesPerCell<L> == 0 ? 255 : 0;
   }
-  alignas(64) std::array<std::uint8_t, 64 * kBytesPerCell<L>> bytes{};
+  alignas(64) std::array<std::uint8_t, 64> lanes{};
 };
-template <CellLayout L>
-constexpr BetweenCells<L> kBetweenCells;
+template <CellLayout L, std::size_t k>
+constexpr BeginsOfCells<L, k> kBeginsOfCells;
+
+#if HWY_TARGET == HWY_AVX3_DL
+/// Sorts three vectors of triples by lookups in two tables of bytes, which Highway does not have: a third of
+/// the operations of hn::LoadInterleaved3.
+constexpr bool kSortsQuickly = true;
+
+template <int kChannel>
+struct BytesOfChannel {
+  constexpr BytesOfChannel() {
+    for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::uint8_t>(3 * i + kChannel);
+  }
+  alignas(64) std::array<std::uint8_t, 64> place{};
+};
+template <int kChannel>
+constexpr BytesOfChannel<kChannel> kBytesOfChannel;
+
+template <int kChannel>
+HWY_INLINE Bytes channelOf(Bytes a, Bytes b, Bytes c) {
+  // Bytes 128 to 191 are those of c.
+  constexpr int kFirstOfC = (128 - kChannel + 2) / 3;
+  const Bytes place = hn::Load(Tag(), kBytesOfChannel<kChannel>.place.data());
+  const __m512i of_a_and_b = _mm512_permutex2var_epi8(a.raw, place.raw, b.raw);
+  return Bytes{_mm512_mask_permutexvar_epi8(of_a_and_b, ~std::uint64_t{0} << kFirstOfC, place.raw, c.raw)};
+}
+
+HWY_INLINE Colours loadTriples(const std::uint8_t* from) {
+  const Tag d;
+  const Bytes a = hn::LoadU(d, from), b = hn::LoadU(d, from + 64), c = hn::LoadU(d, from + 128);
+  return {channelOf<0>(a, b, c), channelOf<1>(a, b, c), channelOf<2>(a, b, c)};
+}
+#else
+constexpr bool kSortsQuickly = false;
+
+HWY_INLINE Colours loadTriples(const std::uint8_t* from) {
+  Colours c;
+  hn::LoadInterleaved3(Tag(), from, c.first, c.green, c.last);
+  return c;
+}
+#endif
 
 template <CellLayout L>
 HWY_INLINE Colours loadColours(const Place& place, std::size_t cell) {
   const Tag d;
   Colours c;
   if constexpr (L == CellLayout::kTriples) {
-    hn::LoadInterleaved3(d, place.first + 3 * cell, c.first, c.green, c.last);
+    c = loadTriples(place.first + 3 * cell);
   } else {
     Bytes upper_even, upper_odd, lower_even, lower_odd;
     hn::LoadInterleaved2(d, place.first + 2 * cell, upper_even, upper_odd);
@@ -140,6 +187,27 @@ HWY_INLINE Bytes difference(Bytes a, Bytes b) {
 HWY_INLINE Bytes largestDifference(const Colours& c, const Colours& b) {
   return hn::Max(hn::Max(difference(c.first, b.first), difference(c.green, b.green)),
                  difference(c.last, b.last));
+}
+
+template <CellLayout L, std::size_t k>
+HWY_INLINE void putWhereCellsBegin(const Place& place, std::size_t byte, Colours& to) {
+  const auto where = hn::MaskFromVec(hn::Load(Tag(), kBeginsOfCells<L, k>.lanes.data()));
+  const Colours from = loadWhereCellsBegin<L>(place, byte + vectorBegin<L>(k));
+  to = {hn::IfThenElse(where, from.first, to.first), hn::IfThenElse(where, from.green, to.green),
+        hn::IfThenElse(where, from.last, to.last)};
+}
+
+/// As many cells as a vector has lanes, from byte `byte` on, each in some lane.
+template <CellLayout L>
+HWY_INLINE Colours loadInAnyOrder(const Place& place, std::size_t byte) {
+  if constexpr (kSortsQuickly && L == CellLayout::kTriples) {
+    return loadTriples(place.first + byte);
+  } else {
+    Colours c = loadWhereCellsBegin<L>(place, byte);
+    putWhereCellsBegin<L, 1>(place, byte, c);
+    if constexpr (L == CellLayout::kTriples) putWhereCellsBegin<L, 2>(place, byte, c);
+    return c;
+  }
 }
 
 /// The outer bounds of a class: which cells may be of it.
@@ -310,10 +378,8 @@ class ColourRefiner {
     if constexpr (!OuterBounds<S>::kHasFirstTest) return false;
     const Tag d;
     Bytes least = broadcast(255);
-    for (std::size_t i = 0; i < kBetweenCells<L>.bytes.size(); i += hn::Lanes(d)) {
-      const Bytes fail = outer_.failFirstTest(loadWhereCellsBegin<L>(place, i));
-      least = hn::Min(least, hn::Or(fail, hn::Load(d, &kBetweenCells<L>.bytes[i])));
-    }
+    for (std::size_t cell = 0; cell < 64; cell += hn::Lanes(d))
+      least = hn::Min(least, outer_.failFirstTest(loadInAnyOrder<L>(place, cell * kBytesPerCell<L>)));
     return hn::AllFalse(d, hn::Eq(least, hn::Zero(d)));
   }
 

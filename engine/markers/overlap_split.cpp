@@ -19,8 +19,10 @@ constexpr double kExplained = 0.85;   ///< of the outline
 constexpr double kSecondShare = 0.2;
 constexpr double kFull = 0.92;
 constexpr double kLeftOver = 0.06;
-constexpr double kWaist = 0.6;  ///< of the depth that the waist of two discs would have
-constexpr double kEdge = 0.7;   ///< cells: half a cell's diagonal
+/// Cells, of the waist of two discs: what square cells fill of its depth (0.4 to 0.9, the sharper the more),
+/// and how deep at least it must be. A smeared ball has none.
+constexpr double kFilled = 0.6, kLeastWaist = 0.35;
+constexpr double kEdge = 0.7;  ///< cells: half a cell's diagonal
 
 double distance(double x, double y, const OutlinePoint& point) {
   return std::sqrt((x - point.x) * (x - point.x) + (y - point.y) * (y - point.y));
@@ -67,7 +69,8 @@ bool hasWaist(const ValueWindow& window, const std::array<OutlineCircle, 2>& pai
   const double along = std::clamp(0.5 * (apart + (r0 * r0 - r1 * r1) / apart), 0.0, apart);
   const double half = std::sqrt(std::max(0.0, r0 * r0 - along * along));
   const OutlinePoint middle{pair[0].centre.x + along * nx, pair[0].centre.y + along * ny};
-  const double smaller = std::min(r0, r1), most = smaller - kWaist * (smaller - half);
+  const double smaller = std::min(r0, r1);
+  const double most = smaller - std::max(kLeastWaist, 0.5 * (smaller - half - kFilled));
   const double sum = reach(window, middle, -ny, nx, smaller) + reach(window, middle, ny, -nx, smaller);
   return 0.5 * sum < most;
 }

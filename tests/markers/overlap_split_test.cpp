@@ -122,9 +122,9 @@ TEST(OverlapSplit, NamesBothOfTwoRenderedBallsInARow) {
       }
   }
   std::printf("%d pairs of rendered balls 1.4 to 2 radii apart, both found of %d\n", pairs, both);
-  // Mast, rods and rotors cross some of them: such shapes stay one centroid.
+  // Of some the skids hide more than half of the far ball: those stay one centroid.
   EXPECT_GE(pairs, 20);
-  EXPECT_GE(both, 0.6 * pairs);
+  EXPECT_GE(both, 0.75 * pairs);
 }
 
 }  // namespace

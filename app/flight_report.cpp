@@ -72,6 +72,7 @@ json cameraJson(const FlightRun& run, const CameraConfig& config, std::size_t in
           {"resent_packets", camera.resent_packets},
           {"longest_gap_s", run.links.longestGap(cameraId(static_cast<int>(index)))},
           {"extraction_us", microseconds(camera.extraction_p50, camera.extraction_p99)},
+          {"focal_scale", camera.focal_scale},
           {"calibration", calibrationJson(run, index)}};
 }
 
@@ -107,6 +108,9 @@ std::string flightJson(const FlightRun& run, const RigConfig& rig) {
                        {"height_rms_m", figure(score.hoverHeight())},
                        {"yaw_rms_deg", figure(score.hoverYaw(), toDegrees(1.0))}};
   report["touchdown_m_s"] = run.last.has_truth ? json(run.last.verdict.hardest_touch) : json(nullptr);
+  report["markers_m"] = json::array();
+  for (const Eigen::Vector3d& ball : run.last.markers.all())
+    report["markers_m"].push_back({ball.x(), ball.y(), ball.z()});
   report["cameras"] = json::array();
   json selected = json::object();
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {

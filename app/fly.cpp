@@ -45,6 +45,7 @@ struct FlyArguments {
   std::vector<std::string> occlude;
   std::vector<std::string> bump;
   std::vector<double> refine_at_s;
+  double refine_markers_m = -1.0, refine_focal = -1.0;
   std::vector<std::string> uncalibrated;
   std::string tracker;
   std::string calibrator;
@@ -53,6 +54,7 @@ struct FlyArguments {
   double outliers = -1.0;
   double gust = -1.0;
   double vary = -1.0;
+  double marker_error_m = -1.0, focal_error = -1.0;
   double rate = -1.0;
 };
 
@@ -78,11 +80,12 @@ void refuseSimulationOptions(const FlyArguments& a, const RigConfig& rig) {
     throw Error(ErrorKind::kInput, "this rig's cameras or transmitter live in real time", rig.path,
                 "fly it with --realtime");
   const bool simulated = !a.occlude.empty() || !a.bump.empty() || a.pixel_noise >= 0.0 || a.outliers >= 0.0 ||
-                         a.gust >= 0.0 || a.vary >= 0.0 || a.no_images;
+                         a.gust >= 0.0 || a.vary >= 0.0 || a.marker_error_m >= 0.0 || a.focal_error >= 0.0 ||
+                         a.no_images;
   if (simulated && !hasFieldOfItsOwn(rig))
     throw Error(ErrorKind::kInput, "an option changes the simulated field, and this rig's is real", rig.path,
-                "leave out --occlude, --bump, --pixel-noise, --outliers, --gust, --vary and --no-images; `helical serve` "
-                "takes some of them");
+                "leave out --occlude, --bump, --pixel-noise, --outliers, --gust, --vary, --marker-error, "
+                "--focal-error and --no-images; `helical serve` takes some of them");
 }
 
 RigConfig configuredRig(const FlyArguments& arguments) {
@@ -96,6 +99,10 @@ RigConfig configuredRig(const FlyArguments& arguments) {
   if (arguments.outliers >= 0.0) simulation.noise.outliers = arguments.outliers;
   if (arguments.gust >= 0.0) simulation.gust_factor = arguments.gust;
   if (arguments.vary >= 0.0) simulation.vary = arguments.vary;
+  if (arguments.marker_error_m >= 0.0) simulation.marker_error_m = arguments.marker_error_m;
+  if (arguments.focal_error >= 0.0) simulation.focal_error = arguments.focal_error;
+  if (arguments.refine_markers_m >= 0.0) rig.self_calibration.marker_sigma_m = arguments.refine_markers_m;
+  if (arguments.refine_focal >= 0.0) rig.self_calibration.focal_sigma = arguments.refine_focal;
   if (arguments.rate > 0.0) {
     simulation.camera_rate_hz = arguments.rate;
     for (CameraConfig& camera : rig.cameras) camera.device.rate_hz = arguments.rate;
@@ -223,6 +230,14 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--vary", arguments->vary, "Draws every helicopter parameter within +-FRACTION")
       ->check(CLI::Range(0.0, 0.9));
+  command
+      ->add_option("--marker-error", arguments->marker_error_m,
+                   "METRES: balls are not where the rig says, by so much per axis, drawn")
+      ->check(CLI::Range(0.0, 0.02));
+  command
+      ->add_option("--focal-error", arguments->focal_error,
+                   "SHARE: focal lengths are not what the rig says, by so much, drawn per camera")
+      ->check(CLI::Range(0.0, 0.1));
   command->add_option("--uncalibrated", arguments->uncalibrated, "CAM,...: cameras whose pose is not known")
       ->delimiter(',');
   command->add_option("--tracker", arguments->tracker,
@@ -239,6 +254,14 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
   command->add_option("--refine", arguments->refine_at_s,
                       "T: solve for all cameras together from what they saw up to T [s]")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--refine-markers", arguments->refine_markers_m,
+                   "METRES: refinements also find balls that are off the rig's places, by about so much per axis")
+      ->check(CLI::Range(0.0, 0.02));
+  command
+      ->add_option("--refine-focal", arguments->refine_focal,
+                   "SHARE: refinements also find focal lengths that are off the rig's, by about so much")
+      ->check(CLI::Range(0.0, 0.1));
   command->add_option("--calibration", arguments->calibration,
                       "Cameras stand where this file says, which --save-calibration wrote");
   command->add_option("--save-calibration", arguments->save_calibration,

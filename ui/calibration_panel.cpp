@@ -80,11 +80,17 @@ QHBoxLayout* CalibrationPanel::buildFiles() {
                      tr("Every camera that a saved calibration names is believed to stand where it says"));
   save_ = smallButton(tr("Save\u2026"), tr("Save the calibration"),
                      tr("Where the cameras of the control set stand, with their uncertainty, to a file"));
+  refine_ = smallButton(tr("Refine"), tr("Refine the places of all cameras"),
+                        tr("Solves for all cameras together from what they saw in this flight, and for balls and "
+                           "focal lengths, too, where the rig file has marker_sigma_m or focal_sigma"));
+  connect(refine_, &QToolButton::clicked, this,
+          [this] { Q_EMIT ordered(cameraId(0), CalibrationOrderKind::kRefine); });
   connect(load_, &QToolButton::clicked, this, &CalibrationPanel::loadRequested);
   connect(save_, &QToolButton::clicked, this, &CalibrationPanel::saveRequested);
   auto* line = new QHBoxLayout;
   line->addWidget(makeLabel(tr("All places")));
   line->addStretch(1);
+  line->addWidget(refine_);
   line->addWidget(load_);
   line->addWidget(save_);
   return line;
@@ -104,6 +110,7 @@ void CalibrationPanel::setHypotheses(int camera, int total) {
 
 void CalibrationPanel::setCommands(bool possible) {
   commands_ = possible;
+  refine_->setEnabled(possible);
   load_->setEnabled(possible);
   save_->setEnabled(possible);
   for (CalibrationRow* row : rows_) row->setEnabled(possible);

@@ -36,6 +36,7 @@ class CalibrationPanel : public QWidget {
   void setCommands(bool possible);
 
   QComboBox* methods() const { return methods_; }
+  QToolButton* refineButton() const { return refine_; }
   QToolButton* loadButton() const { return load_; }
   QToolButton* saveButton() const { return save_; }
   const CalibrationRow& row(int camera) const { return *rows_[static_cast<std::size_t>(camera)]; }
@@ -57,6 +58,7 @@ class CalibrationPanel : public QWidget {
   void showOnlyLearners();
 
   QComboBox* methods_;
+  QToolButton* refine_ = nullptr;
   QToolButton* load_ = nullptr;
   QToolButton* save_ = nullptr;
   QLabel* nobody_ = nullptr;

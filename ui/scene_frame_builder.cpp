@@ -108,7 +108,8 @@ void SceneFrameBuilder::turnRotors(const EngineSnapshot& tick) {
 void SceneFrameBuilder::addRays(const EngineSnapshot& snapshot, int camera, SceneFrame& frame) const {
   const CameraSnapshot& seen = snapshot.cameras[static_cast<std::size_t>(camera)];
   if (!snapshot.pose_known || snapshot.time - seen.track.exposure > kRayLife) return;
-  const CameraModel& model = rig_.cameras[static_cast<std::size_t>(camera)].model;
+  const CameraModel model =
+      rig_.cameras[static_cast<std::size_t>(camera)].model.withFocalScale(seen.focal_scale);
   const RigidTransform world_from_camera = seen.estimate.camera_from_world.inverse();
   for (int i = 0; i < snapshot.marker_count; ++i) {
     const MarkerTrack& marker = seen.track.markers[static_cast<std::size_t>(i)];
@@ -116,7 +117,7 @@ void SceneFrameBuilder::addRays(const EngineSnapshot& snapshot, int camera, Scen
     // The measured direction, as long as the marker is believed to be far.
     const Eigen::Vector3d direction =
         world_from_camera.rotation * model.bearing(marker.pixel).homogeneous().normalized();
-    const Eigen::Vector3d ball = frame.world_from_body * rig_.markers_in_body.inBody(markerId(i));
+    const Eigen::Vector3d ball = frame.world_from_body * snapshot.markers.inBody(markerId(i));
     const double length = (ball - world_from_camera.translation).norm();
     frame.rays.push_back(
         {camera, world_from_camera.translation, world_from_camera.translation + length * direction});

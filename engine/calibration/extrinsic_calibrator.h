@@ -7,7 +7,9 @@
 #include "engine/base/time.h"
 #include "engine/correspondence/tried_labellings.h"
 #include "engine/geometry/camera_estimate.h"
+#include "engine/geometry/camera_model.h"
 #include "engine/geometry/rigid_transform.h"
+#include "engine/helicopter/marker_layout.h"
 #include "engine/markers/observation.h"
 
 namespace helical {
@@ -48,6 +50,9 @@ class ExtrinsicCalibrator {
 
   /// Forgets everything and starts from a guess of camera_from_world.
   virtual void restart(const RigidTransform& initial_guess) = 0;
+
+  /// Balls and focal lengths were found to be these: frames to come, and those that it still has, are read by them.
+  virtual void correct(const CameraModel& camera, const MarkerLayout& markers) = 0;
 
   /// Takes in one frame. A frame with too few pixels for the method is data, not an error.
   virtual void step(const CalibrationFrame& frame) = 0;

@@ -22,6 +22,10 @@ class FrameGaussNewton final : public ExtrinsicCalibrator {
 
   const char* name() const override { return "gauss-newton"; }
   void restart(const RigidTransform& initial_guess) override;
+  void correct(const CameraModel& camera, const MarkerLayout& markers) override {
+    camera_ = camera;
+    markers_ = markers;
+  }
   void step(const CalibrationFrame& frame) override;
   CameraEstimate estimate() const override { return estimate_; }
 

@@ -39,6 +39,12 @@ class JointCalibrator final : public ExtrinsicCalibrator {
 
   const char* name() const override { return "joint"; }
   void restart(const RigidTransform& initial_guess) override;
+  void correct(const CameraModel& camera, const MarkerLayout& markers) override {
+    camera_ = camera;
+    markers_ = markers;
+    search_.correct(camera, markers);
+    smoother_.correct(camera, markers);
+  }
   void step(const CalibrationFrame& frame) override;
   bool goOnFrom(const CameraEstimate& estimate) override;
   CameraEstimate estimate() const override { return estimate_; }

@@ -64,6 +64,12 @@ class JointSearch {
     return {hypotheses_.data(), static_cast<std::size_t>(count_)};
   }
 
+  /// See ExtrinsicCalibrator.
+  void correct(const CameraModel& camera, const MarkerLayout& markers) {
+    camera_ = camera;
+    markers_ = markers;
+  }
+
   /// Whether the last step ended a round: the costs of the hypotheses are those of the same frames.
   bool roundEnded() const { return !in_round_; }
   /// Of a hypothesis [standard deviations]: about 1 where it explains the frames.

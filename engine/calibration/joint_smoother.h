@@ -26,6 +26,12 @@ class JointSmoother {
   /// Forgets all frames. `known`: information about that pose from elsewhere.
   void start(const RigidTransform& camera_from_world, const Matrix6d& known = Matrix6d::Zero());
 
+  /// See ExtrinsicCalibrator.
+  void correct(const CameraModel& camera, const MarkerLayout& markers) {
+    camera_ = camera;
+    markers_ = markers;
+  }
+
   void add(const StoredFrame& frame);
 
   /// Linearises up to so many frames anew, if that is due.

@@ -46,6 +46,11 @@ class ParticleFilter final : public ExtrinsicCalibrator {
     return kind_ == ParticleFilterKind::kLiteral ? "particle-filter-literal" : "particle-filter";
   }
   void restart(const RigidTransform& initial_guess) override;
+  void correct(const CameraModel& camera, const MarkerLayout& markers) override {
+    camera_ = camera;
+    markers_ = markers;
+    search_.correct(camera, markers);
+  }
   void step(const CalibrationFrame& frame) override;
   CameraEstimate estimate() const override { return estimate_; }
   std::span<const WeightedPose> particles() const override;

@@ -31,6 +31,12 @@ class ModeSearch {
   ModeSearch(const ModeSearch&) = delete;
   ModeSearch& operator=(const ModeSearch&) = delete;
 
+  /// See ExtrinsicCalibrator.
+  void correct(const CameraModel& camera, const MarkerLayout& markers) {
+    camera_ = camera;
+    markers_ = markers;
+  }
+
   /// Copies `frames`, 1 to kModeFrames of them.
   void start(std::span<const StoredFrame* const> frames, const RigidTransform& in_use,
              const RigidTransform& guess);

@@ -22,6 +22,7 @@ constexpr double kSmallDecrease = 0.02;   // squared sigmas: a hundredth of a st
 constexpr double kSmallStep = 1e-8;
 constexpr double kHugeStep = 100.0;
 constexpr double kMostDamping = 1e8;
+constexpr int kRigidFreedoms = 6;         // of the balls as a whole
 constexpr double kExact = 1e-14;          // variance below which a given pose is no unknown
 
 RigidTransform movedBody(const RigidTransform& world_from_body, const Vector6d& step) {
@@ -106,9 +107,13 @@ void RigBundle::layOut() {
       camera_column_[c] = columns_;
       columns_ += 6;
     }
-    if (options_.focal_sigma > 0.0) focal_column_[c] = columns_++;
   }
+  moved_column_ = columns_;
+  for (std::size_t c = 0; c < models_.size(); ++c)
+    if (cameras_[c].used && !cameras_[c].focal_is_given && options_.focal_sigma > 0.0) focal_column_[c] = columns_++;
+  freedoms_ = columns_ - moved_column_;
   marker_column_ = options_.marker_sigma_m > 0.0 ? columns_ : -1;
+  if (marker_column_ >= 0) freedoms_ += 3 * layout_.count() - kRigidFreedoms;
   if (marker_column_ >= 0) columns_ += 3 * layout_.count();
   current_.clear();
   step_.setZero();
@@ -381,6 +386,21 @@ void RigBundle::finish() {
       camera.covariance = misfit * covariance.block<6, 6>(camera_column_[c], camera_column_[c]);
     if (focal_column_[c] >= 0)
       camera.focal_sigma = std::sqrt(misfit * covariance(focal_column_[c], focal_column_[c]));
+  }
+  // With the other parameters at their best for each, the cost is a quadratic form of these: that of the factor's
+  // lower right corner.
+  const int moved = columns_ - moved_column_;
+  auto shift = step_.segment(moved_column_, moved);
+  for (std::size_t c = 0; c < models_.size(); ++c)
+    if (focal_column_[c] >= 0) step_[focal_column_[c]] = best_.focal_scales[c] - given_[c].focal_scale;
+  if (marker_column_ >= 0)
+    for (int m = 0; m < layout_.count(); ++m)
+      step_.segment<3>(marker_column_ + 3 * m) =
+          best_.markers[static_cast<std::size_t>(m)] - initial_layout_.inBody(markerId(m));
+  gain_ = 0.0;
+  for (int column = 0; column < moved; ++column) {
+    const auto below = factor_.col(moved_column_ + column).segment(moved_column_ + column, moved - column);
+    gain_ += std::pow(below.dot(shift.tail(moved - column)), 2) / misfit;
   }
   if (marker_column_ < 0) return;
   layout_ = MarkerLayout({best_.markers.data(), static_cast<std::size_t>(initial_layout_.count())},

@@ -27,7 +27,8 @@ struct BundleCamera {
   bool given = false;              ///< its pose is known, up to `covariance`
   RigidTransform camera_from_world;  ///< first guess, then the answer
   Matrix6d covariance = Matrix6d::Zero();  ///< of a given one; of all, in the answer
-  double focal_scale = 1.0;        ///< by which both focal lengths are multiplied
+  bool focal_is_given = false;     ///< it is what it is, whatever the options say
+  double focal_scale = 1.0;        ///< by which both focal lengths are multiplied; what the prior says, then the answer
   double focal_sigma = 0.0;        ///< of that; in the answer
   int balls = 0, inliers = 0;      ///< seen, and explained within `robust_sigmas`
 };
@@ -38,12 +39,18 @@ struct BundleCamera {
 /// small however many moments there are; Levenberg-Marquardt over the rest, robust, with a scale that follows the
 /// median residual while the fit is poor.
 ///
-/// The gauge is held by cameras with a given pose or by moments with a given one; that of balls which move by their
-/// prior. Works in slices, so that no image waits for it; allocates at construction only. One thread.
+/// The gauge is held by cameras with a given pose or by moments with a given one. Balls that move have one of their
+/// own: as a whole they may shift and turn against the body, and where no given camera sets the scale grow against
+/// it, and no image shows it. The prior holds that: nothing shifts, turns or grows but what images ask for. A focal
+/// length is told from the distance only by what comes nearer and goes away; its prior holds the rest. Works in
+/// slices, so that no image waits for it; allocates at construction only. One thread.
 class RigBundle {
  public:
   /// For at most `moments` moments.
   RigBundle(std::vector<CameraModel> cameras, const MarkerLayout& markers, int moments);
+
+  /// From the next run on the balls are here, or here as far as the prior says. As many as before.
+  void expect(const MarkerLayout& markers) { initial_layout_ = markers; }
 
   /// `moments` stay where they are until it is done; their poses are refined in place.
   void start(std::span<RigMoment> moments, std::span<const BundleCamera> cameras, const RigBundleOptions& options);
@@ -58,6 +65,10 @@ class RigBundle {
   std::span<const BundleCamera> cameras() const { return cameras_; }
   const MarkerLayout& markers() const { return layout_; }
   double medianSigmas() const { return current_.median_sigmas; }  ///< 1.18 where noise is as told
+  /// By how much the cost is lower for balls and focal lengths that moved, with all else free either way, over what
+  /// noise of the size found explains: about the number of `freedoms` where they stand right, chi-square distributed.
+  double gain() const { return gain_; }
+  int freedoms() const { return freedoms_; }
 
  private:
   enum class State { kIdle, kEvaluating, kDone, kFailed };
@@ -112,6 +123,9 @@ class RigBundle {
   std::vector<float> distances_;  ///< squared residuals of a pass [sigma^2]
   std::array<int, kMaxCameras> camera_column_{}, focal_column_{};
   int marker_column_ = -1, columns_ = 0;
+  int moved_column_ = 0;  ///< from here on are focal lengths and balls
+  double gain_ = 0.0;
+  int freedoms_ = 0;
   std::size_t next_ = 0;
   bool first_ = true;
   int iteration_ = 0;

@@ -1,6 +1,7 @@
 #include "engine/calibration/rig_refinement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/base/check.h"
@@ -11,11 +12,28 @@ namespace helical {
 namespace {
 
 constexpr TimeNs kLag = 40 * kNanosecondsPerMillisecond;  // a moment needs frames after it
+// Standard deviations of chi-square, beyond which balls or focal lengths are off and not the images noisy.
+constexpr double kBeyondChance = 4.0;
+// Over its prior sigma: beyond, the images have hardly added to what is known of a focal length.
+constexpr double kOpenFocal = 0.4;
+// For balls and focal lengths: one camera by itself sees a helicopter of other balls at another distance.
+constexpr int kFewestCameras = 2;
 constexpr int kSliceOfAll = 18;  // moments times cameras looked at with one observation
 
 }  // namespace
 
+void validate(const SelfCalibrationOptions& options) {
+  const auto require = [](double value, double most, const char* key) {
+    if (!(value >= 0.0 && value <= most))
+      throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
+                  "give 0 (it is as the rig says) to " + std::to_string(most));
+  };
+  require(options.marker_sigma_m, 0.02, "marker_sigma_m");
+  require(options.focal_sigma, 0.1, "focal_sigma");
+}
+
 void validate(const RigRefinementOptions& options) {
+  validate(options.self);
   const auto require = [](bool good, const char* key, double value, const char* cure) {
     if (!good)
       throw Error(ErrorKind::kInput, std::string(key) + " of a refinement is " + std::to_string(value), {}, cure);
@@ -39,7 +57,12 @@ RigRefinement::RigRefinement(const std::vector<CameraModel>& cameras, const Mark
       solved_(static_cast<std::size_t>(options.moments)),
       bundle_(cameras, markers, options.moments),
       start_(cameras.size()),
-      slice_(std::max(1, kSliceOfAll / static_cast<int>(cameras.size()))) {}
+      markers_(markers),
+      flown_(static_cast<std::size_t>(options.moments)),
+      jumps_(static_cast<std::size_t>(options.moments)),
+      slice_(std::max(1, kSliceOfAll / static_cast<int>(cameras.size()))) {
+  focal_scales_.fill(1.0);
+}
 
 void RigRefinement::see(CameraId camera, const NamedBalls& balls, const RigidTransform& world_from_body) {
   maker_.add(camera, balls);
@@ -67,7 +90,7 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
   if (static_cast<int>(moments.size()) < options_.fewest_moments)
     return "too little was seen by two cameras at a time yet";
   bool held = false;
-  int unknown = 0;
+  int unknown = 0, used = 0;
   for (std::size_t c = 0; c < cameras_; ++c) {
     BundleCamera& camera = start_[c];
     camera = {};
@@ -77,32 +100,121 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
     camera.given = cameras[c].holds;
     camera.camera_from_world = cameras[c].estimate.camera_from_world;
     camera.covariance = cameras[c].estimate.covariance;
+    camera.focal_is_given = cameras[c].frozen;
+    camera.focal_scale = focal_scales_[c];
+    used += camera.used;
     held = held || (camera.used && camera.given);
     unknown += camera.used && !(camera.given && camera.covariance.isZero(0.0));
   }
   if (!held) return "no camera is known that the others could be placed by";
-  if (unknown == 0) return "every camera's pose is given exactly, or it saw too little";
-  solved_count_ = 0;
-  for (const RigMoment* moment : moments) solved_[solved_count_++] = *moment;
-  bundle_.start({solved_.data(), solved_count_}, start_, {});
+  other_unknowns_ = unknown > 0;
+  const bool sees_balls = options_.self.any() && used >= kFewestCameras;
+  if (!other_unknowns_ && !sees_balls) return "every camera's pose is given exactly, or it saw too little";
+  correction_ = Correction::kNotSought;
+  solve(sees_balls ? options_.self : SelfCalibrationOptions{});
   return nullptr;
 }
 
+void RigRefinement::solve(const SelfCalibrationOptions& self) {
+  solved_count_ = 0;
+  for (const RigMoment* moment : store_.frames()) solved_[solved_count_++] = *moment;
+  for (std::size_t i = 0; i < solved_count_; ++i) flown_[i] = solved_[i].world_from_body.translation;
+  inflation_ =
+      lastingInflation({solved_.data(), solved_count_}, options_.lasting_sigma_px, options_.lasting_time_s);
+  RigBundleOptions options;
+  // The bundle takes pixels for as sure as they are noisy, and they are less: priors weigh as much against them.
+  options.marker_sigma_m = self.marker_sigma_m / std::sqrt(inflation_);
+  options.focal_sigma = self.focal_sigma / std::sqrt(inflation_);
+  correcting_ = self.any();
+  bundle_.expect(markers_);
+  bundle_.start({solved_.data(), solved_count_}, start_, options);
+}
+
 bool RigRefinement::work() {
-  return bundle_.running() && bundle_.advance(slice_);
+  if (!bundle_.running() || !bundle_.advance(slice_)) return false;
+  if (!correcting_) return true;
+  if (succeeded() && leaveOutWhatIsOpen()) {
+    solve(options_.self);
+    return false;
+  }
+  correction_ = judgeCorrection();
+  if (correction_ == Correction::kFound) {
+    takeCorrection();
+    return true;
+  }
+  if (other_unknowns_) {
+    solve({});
+    return false;
+  }
+  bundle_.stop();
+  return true;
+}
+
+bool RigRefinement::leaveOutWhatIsOpen() {
+  bool left_out = false;
+  auto used = std::count_if(start_.begin(), start_.end(), [](const BundleCamera& camera) { return camera.used; });
+  for (std::size_t c = 0; c < cameras_; ++c) {
+    BundleCamera& camera = start_[c];
+    if (!camera.used) continue;
+    const BundleCamera& found = bundle_.cameras()[c];
+    if (!camera.given && used > kFewestCameras && found.inliers < options_.good_inliers * found.balls) {
+      camera.used = false;
+      --used;
+      left_out = true;
+    } else if (!camera.focal_is_given &&
+               std::sqrt(inflation_) * found.focal_sigma > kOpenFocal * options_.self.focal_sigma) {
+      camera.focal_is_given = left_out = true;
+    }
+  }
+  return left_out;
+}
+
+RigRefinement::Correction RigRefinement::judgeCorrection() {
+  if (!succeeded()) return Correction::kUnsound;
+  const double n = bundle_.freedoms();
+  if (bundle_.gain() <= inflation_ * (n + kBeyondChance * std::sqrt(2.0 * n))) return Correction::kNotNeeded;
+  for (std::size_t c = 0; c < cameras_; ++c) {
+    const BundleCamera& found = bundle_.cameras()[c];
+    if (!found.used) continue;
+    if (found.inliers < options_.good_inliers * found.balls) return Correction::kUnsound;
+    const double off = std::abs(found.focal_scale - start_[c].focal_scale);
+    if (off > options_.farthest_sigmas * options_.self.focal_sigma) return Correction::kUnsound;
+  }
+  const double farthest_m = options_.farthest_sigmas * options_.self.marker_sigma_m;
+  for (int m = 0; m < markers_.count(); ++m) {
+    const Eigen::Vector3d off = bundle_.markers().inBody(markerId(m)) - markers_.inBody(markerId(m));
+    if (off.cwiseAbs().maxCoeff() > farthest_m) return Correction::kUnsound;
+  }
+  return medianJump() <= options_.farthest_m ? Correction::kFound : Correction::kUnsound;
+}
+
+double RigRefinement::medianJump() {
+  for (std::size_t i = 0; i < solved_count_; ++i)
+    jumps_[i] = (solved_[i].world_from_body.translation - flown_[i]).norm();
+  const auto middle = jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_ / 2);
+  std::nth_element(jumps_.begin(), middle, jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_));
+  return *middle;
+}
+
+void RigRefinement::takeCorrection() {
+  markers_ = bundle_.markers();
+  for (std::size_t c = 0; c < cameras_; ++c)
+    if (bundle_.cameras()[c].used) focal_scales_[c] = bundle_.cameras()[c].focal_scale;
+}
+
+bool RigRefinement::succeeded() const {
+  return bundle_.succeeded() && bundle_.medianSigmas() <= options_.good_median;
 }
 
 CameraEstimate RigRefinement::answer(CameraId camera) const {
   const auto index = static_cast<std::size_t>(camera.index());
   CameraEstimate answer;
-  if (!bundle_.succeeded() || bundle_.medianSigmas() > options_.good_median) return answer;
+  if (!succeeded()) return answer;
   const BundleCamera& found = bundle_.cameras()[index];
   const bool exact = start_[index].given && start_[index].covariance.isZero(0.0);
   if (!found.used || exact || found.inliers < options_.good_inliers * found.balls) return answer;
   answer.camera_from_world = found.camera_from_world;
-  answer.covariance = lastingInflation({solved_.data(), solved_count_}, options_.lasting_sigma_px,
-                                       options_.lasting_time_s) *
-                      found.covariance;
+  answer.covariance = inflation_ * found.covariance;
   answer.status = CameraStatus::kCalibrated;
   return answer;
 }

@@ -7,6 +7,7 @@
 
 #include "engine/calibration/moment_maker.h"
 #include "engine/calibration/rig_bundle.h"
+#include "engine/calibration/self_calibration_options.h"
 #include "engine/calibration/thinned_store.h"
 
 namespace helical {
@@ -18,6 +19,9 @@ struct RigRefinementOptions {
   int fewest_of_camera = 12;     ///< moments in which a camera must have seen the helicopter
   double good_inliers = 0.7;     ///< share of a camera's balls that must fit
   double good_median = 3.0;      ///< standard deviations that the median residual may have; 1.2 is expected
+  SelfCalibrationOptions self;
+  double farthest_sigmas = 4.0;  ///< of the priors, that balls and focal lengths may be off
+  double farthest_m = 0.1;       ///< that the helicopter's place may jump by it, median
   double lasting_sigma_px = 0.08, lasting_time_s = 1.0;  ///< see LastingOffsets
 };
 
@@ -28,6 +32,12 @@ void validate(const RigRefinementOptions& options);
 /// learns for itself otherwise, which is quick and loses a tenth of what the frames hold. Looks on all the time and
 /// keeps moments spread over the helicopter's poses; solves in slices of bounded work, so that no image waits for
 /// it. One thread; allocates at construction only.
+///
+/// If the options say so, balls and focal lengths are solved for, too (RigBundle has how the gauge is held). They
+/// correct what is flown with only if they explain the images better than chance does, every camera fits, none is
+/// off farther than its prior allows, and the helicopter does not jump; otherwise all is solved for once more without
+/// them, and the answer is as if nobody had asked. A focal length that the images hardly tell stays as it is, and a
+/// learning camera that does not fit takes no part: that is found in runs of their own.
 class RigRefinement {
  public:
   /// What is known of one camera when it starts.
@@ -35,6 +45,7 @@ class RigRefinement {
     CameraEstimate estimate;
     bool used = false;
     bool holds = false;  ///< its pose is known up to its covariance, and with it the world
+    bool frozen = false;  ///< nothing will be learnt about it: its focal length stays
   };
 
   RigRefinement(const std::vector<CameraModel>& cameras, const MarkerLayout& markers,
@@ -50,15 +61,41 @@ class RigRefinement {
   void stop() { bundle_.stop(); }
   bool running() const { return bundle_.running(); }
 
+  /// What a run that ended has to say about balls and focal lengths.
+  enum class Correction {
+    kNotSought,
+    kFound,      ///< `markers` and `focalScale` are new, and the poses in its answers hold with these
+    kNotNeeded,  ///< images are explained as well by what is flown with
+    kUnsound,    ///< something else is wrong
+  };
+  Correction correction() const { return correction_; }
+  /// Whether what happens to one camera now spoils the run for all.
+  bool corrects() const { return running() && options_.self.any(); }
+  /// What is flown with.
+  const MarkerLayout& markers() const { return markers_; }
+  double focalScale(CameraId camera) const { return focal_scales_[static_cast<std::size_t>(camera.index())]; }
+  /// A camera's focal lengths are the model's times this, whatever was found.
+  void setFocalScale(CameraId camera, double scale) {
+    focal_scales_[static_cast<std::size_t>(camera.index())] = scale;
+  }
+
   /// One observation's share of the work. True when it ended just now.
   bool work();
 
+  /// Of a run that ended: whether it has an answer.
+  bool succeeded() const;
   /// Of a run that ended: where it found this camera. Status kCalibrated; kUncalibrated for one that it could not
   /// find, or that held the world exactly.
   CameraEstimate answer(CameraId camera) const;
 
  private:
   void keep(TimeNs now, const RigidTransform& world_from_body);
+  void solve(const SelfCalibrationOptions& self);
+  /// Takes out of the run what it cannot tell. True if there was something.
+  bool leaveOutWhatIsOpen();
+  Correction judgeCorrection();
+  void takeCorrection();
+  double medianJump();
 
   RigRefinementOptions options_;
   std::size_t cameras_;
@@ -70,6 +107,14 @@ class RigRefinement {
   std::size_t solved_count_ = 0;
   RigBundle bundle_;
   std::vector<BundleCamera> start_;
+  MarkerLayout markers_;
+  std::array<double, kMaxCameras> focal_scales_;
+  std::vector<Eigen::Vector3d> flown_;  ///< where the tracker had the helicopter at those moments
+  std::vector<double> jumps_;           ///< scratch
+  double inflation_ = 1.0;   ///< of variances, by offsets that last
+  bool correcting_ = false;  ///< balls or focal lengths are unknowns of this run
+  Correction correction_ = Correction::kNotSought;
+  bool other_unknowns_ = false;  ///< than balls and focal lengths
   int slice_;
 };
 

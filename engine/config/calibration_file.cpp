@@ -23,15 +23,18 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+/// A whole number would be read as an integer, which is as good; "inf" and "nan" cannot be.
+std::string exact(double value) {
+  char number[40];
+  std::snprintf(number, sizeof number, "%.17g", value);
+  return number;
+}
+
 template <class Derived>
 std::string listed(const Eigen::DenseBase<Derived>& values) {
   std::string result = "[";
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    char number[40];
-    std::snprintf(number, sizeof number, "%s%.17g", i > 0 ? ", " : "", values.derived().data()[i]);
-    // A whole number would be read as an integer, which is as good; "inf" and "nan" cannot be.
-    result += number;
-  }
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    result += (i > 0 ? ", " : "") + exact(values.derived().data()[i]);
   return result + "]";
 }
 
@@ -39,6 +42,9 @@ SavedCamera readCamera(TomlTable& table) {
   SavedCamera camera;
   camera.label = table.required("id", table.textOrInteger("id"), std::string("1"), "id = 1");
   camera.method = table.text("method").value_or("given");
+  camera.focal_scale = table.number("focal_scale").value_or(1.0);
+  if (!(camera.focal_scale > 0.5 && camera.focal_scale < 2.0))
+    table.fail("focal_scale", "no refinement finds such a focal length", "give 0.5 to 2");
   const auto covariance = readCovariance(table);
   if (covariance) camera.covariance = *covariance;
   camera.camera_from_world = readPose(table);
@@ -57,6 +63,7 @@ SavedCalibration parseCalibration(std::string_view toml, const std::string& name
   calibration.written = provenance.text("written").value_or("");
   calibration.after_s = provenance.number("after_s").value_or(0.0);
   provenance.finish();
+  calibration.markers_in_body = root.points("markers_m").value_or(std::vector<Eigen::Vector3d>());
   for (TomlTable& table : root.tables("camera")) {
     calibration.cameras.push_back(readCamera(table));
     const auto same = std::count_if(
@@ -80,16 +87,22 @@ std::string toToml(const SavedCalibration& calibration) {
   char after[40];
   std::snprintf(after, sizeof after, "%.3f", calibration.after_s);
   std::string text = "# Where cameras stand: camera_from_world, and the covariance of its error (rotation in the\n"
-                     "# camera's frame [rad], then the camera's centre in the world [m]).\nformat_version = 1\n\n"
-                     "[provenance]\nrig = " +
-                     quoted(calibration.rig) + "\nwritten = " + quoted(calibration.written) +
-                     "\nafter_s = " + after + "\n";
+                     "# camera's frame [rad], then the camera's centre in the world [m]).\nformat_version = 1\n";
+  if (!calibration.markers_in_body.empty()) {
+    text += "markers_m = [";
+    for (std::size_t i = 0; i < calibration.markers_in_body.size(); ++i)
+      text += (i > 0 ? ", " : "") + listed(calibration.markers_in_body[i]);
+    text += "]\n";
+  }
+  text += "\n[provenance]\nrig = " + quoted(calibration.rig) + "\nwritten = " + quoted(calibration.written) +
+          "\nafter_s = " + after + "\n";
   for (const SavedCamera& camera : calibration.cameras) {
     const Eigen::Quaterniond& q = camera.camera_from_world.rotation;
     text += "\n[[camera]]\nid = " + quoted(camera.label) + "\nmethod = " + quoted(camera.method) +
             "\nrotation_wxyz = " + listed(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z())) +
             "\ntranslation_m = " + listed(camera.camera_from_world.translation) +
             "\ncovariance = " + listed(camera.covariance) + "\n";
+    if (camera.focal_scale != 1.0) text += "focal_scale = " + exact(camera.focal_scale) + "\n";
   }
   return text;
 }

@@ -15,6 +15,7 @@ struct SavedCamera {
   std::string method;  ///< by which the pose was found; "given" if nobody did in that flight
   RigidTransform camera_from_world;
   Matrix6d covariance = Matrix6d::Zero();  ///< order of CameraEstimate
+  double focal_scale = 1.0;                ///< over the rig file's focal lengths
 };
 
 /// A solved calibration. The file has a format of its own (TOML; resources/rigs/README.md), so that the rig file
@@ -24,6 +25,7 @@ struct SavedCalibration {
   std::string written;  ///< date and time, UTC
   double after_s = 0.0;  ///< of the flight, when it was saved
   std::vector<SavedCamera> cameras;
+  std::vector<Eigen::Vector3d> markers_in_body;  ///< where a refinement found the balls; empty: as in the rig file
 };
 
 /// Errors as `loadRig`.

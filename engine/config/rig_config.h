@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/calibration/self_calibration_options.h"
 #include "engine/cameras/device_options.h"
 #include "engine/flight/controller_options.h"
 #include "engine/flight/supervisor_options.h"
@@ -27,6 +29,7 @@ struct CameraConfig {
   std::string source;  ///< "sim", "aravis:ADDRESS-OR-SERIAL", or empty in a rig for recordings
   DeviceOptions device;  ///< of a source that is a device
   CameraModel model;
+  double focal_scale = 1.0;  ///< of the model's focal lengths over the rig file's: see replaceFocalLengths
   std::optional<RigidTransform> camera_from_world;  ///< nothing: un-calibrated
   bool pose_is_guess = false;                       ///< `initial = true`
   std::optional<Matrix6d> pose_covariance;          ///< of CameraEstimate's perturbation, if the file tells
@@ -54,9 +57,15 @@ struct RigConfig {
   bool learn_from_own_pose = false;
   std::string calibrator = "joint";  ///< of cameras whose pose has to be found in flight
   CalibratorOptions calibration;
+  SelfCalibrationOptions self_calibration;  ///< of refinements
 
   /// The camera that users call `label`; throws Error(kInput) listing the rig's cameras.
   CameraId camera(const std::string& label) const;
+
+  /// A calibration has found balls and focal lengths to be these; the simulated field stays as it was. Throws
+  /// Error(kInput) for another number of balls.
+  void replaceMarkers(std::span<const Eigen::Vector3d> markers_in_body);
+  void replaceFocalLengths(std::size_t camera, double scale);
 };
 
 }  // namespace helical

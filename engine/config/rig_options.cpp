@@ -158,6 +158,8 @@ constexpr OptionField<SimulationOptions> kSimulationFields[] = {
     {"field_empty_s", &SimulationOptions::field_empty_s},
     {"image_noise", &SimulationOptions::image_noise},
     {"light_drift", &SimulationOptions::light_drift},
+    {"marker_error_m", &SimulationOptions::marker_error_m},
+    {"focal_error", &SimulationOptions::focal_error},
 };
 
 constexpr OptionField<GuessSpread> kGuessFields[] = {
@@ -174,6 +176,11 @@ constexpr OptionField<ParticleFilterOptions> kParticleFields[] = {
     {"particles", &ParticleFilterOptions::particles, 1.0, 10, 1'000'000},
     {"likelihood_floor", &ParticleFilterOptions::floor, 1.0, 1e-12, 1.0},
     {"kernel", &ParticleFilterOptions::kernel, 1.0, 0.0, 0.999},
+};
+
+constexpr OptionField<SelfCalibrationOptions> kSelfCalibrationFields[] = {
+    {"marker_sigma_m", &SelfCalibrationOptions::marker_sigma_m, 1.0, 0.0, 0.02},
+    {"focal_sigma", &SelfCalibrationOptions::focal_sigma, 1.0, 0.0, 0.1},
 };
 
 constexpr OptionField<ObservationNoise> kNoiseFields[] = {
@@ -286,6 +293,7 @@ void readCalibration(TomlTable table, RigConfig& rig) {
   readOptions(table, kGuessFields, rig.calibration.guess);
   readOptions(table, kGrowingFields, rig.calibration.growing_gauss_newton);
   readOptions(table, kParticleFields, rig.calibration.particle_filter);
+  readOptions(table, kSelfCalibrationFields, rig.self_calibration);
   table.finish();
 }
 

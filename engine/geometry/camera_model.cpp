@@ -23,6 +23,13 @@ double monotonicRadius2(const std::array<double, 8>& d) {
 
 }  // namespace
 
+CameraModel CameraModel::withFocalScale(double scale) const {
+  CameraModel scaled = *this;
+  scaled.fx_ *= scale;
+  scaled.fy_ *= scale;
+  return scaled;
+}
+
 CameraModel::CameraModel(int width, int height, double fx, double fy, double cx, double cy,
                          const std::array<double, 8>& distortion)
     : width_(width), height_(height), fx_(fx), fy_(fy), cx_(cx), cy_(cy), distortion_(distortion) {

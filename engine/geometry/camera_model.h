@@ -26,6 +26,9 @@ class CameraModel {
   /// Whether k4 k5 k6 are in use; without them the model has the first five coefficients alone.
   bool rational() const { return rational_; }
 
+  /// The same with both focal lengths multiplied.
+  CameraModel withFocalScale(double scale) const;
+
   /// Pixel of a point in the camera frame [m]; nothing for a point nearer than 5 cm or behind the camera, or
   /// so far outside the image that the distortion polynomial folds back. `d_pixel_d_point` is the 2x3
   /// Jacobian.

@@ -60,7 +60,7 @@ const char* calibrationText(CalibrationOrderKind kind) {
     case CalibrationOrderKind::kAdopt:
       return "believed to stand where the loaded calibration says";
     case CalibrationOrderKind::kRefine:
-      return "solved for together with all others";
+      break;  // is no camera's own
   }
   return "";
 }
@@ -89,6 +89,12 @@ EngineEvent Announcer::event(TimeNs time, Severity severity, std::size_t camera,
 
 EngineEvent Announcer::ordered(TimeNs time, std::size_t camera, CalibrationOrderKind kind,
                                const char* refusal) const {
+  if (kind == CalibrationOrderKind::kRefine) {
+    if (refusal == nullptr) return event(time, Severity::kInfo, "Refinement of all cameras begins");
+    std::array<char, 112> why{};
+    std::snprintf(why.data(), why.size(), "Refinement refused: %s", refusal);
+    return event(time, Severity::kCaution, why.data());
+  }
   if (refusal == nullptr) return event(time, Severity::kInfo, camera, calibrationText(kind));
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "order refused: %s", refusal);
@@ -110,6 +116,7 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
     raise(event(now.time, Severity::kDanger, "Output fell back to rotors off: the flight thread was silent"));
   }
   for (std::size_t i = 0; i < names_.size(); ++i) announceCamera(now, i, raise);
+  announceRefinement(now, raise);
   announceRecord(now, raise);
   if (now.cameras_disagree && !disagreed_)
     raise(event(now.time, Severity::kDanger, "The last two cameras disagree: one was moved, which is not known"));
@@ -159,6 +166,35 @@ void Announcer::announceSafety(const EngineSnapshot& now, const Sink& raise) {
     raise(event(now.time, Severity::kDanger, "Rotors cut, latched"));
   alarms_ = now.alarms;
   safety_ = now.safety;
+}
+
+void Announcer::announceRefinement(const EngineSnapshot& now, const Sink& raise) {
+  const RefinementReport& report = now.refinement;
+  if (report.ended == refinements_) return;
+  refinements_ = report.ended;
+  std::array<char, 112> text{};
+  std::array<char, 32> by{};
+  switch (report.outcome) {
+    case RefinementOutcome::kNone:
+      return;
+    case RefinementOutcome::kCameras:
+      return raise(event(now.time, Severity::kGood, "Refined: cameras stand where all of them together say"));
+    case RefinementOutcome::kCorrected:
+      std::snprintf(by.data(), by.size(), "%.1f mm, %.2f %%", 1e3 * report.balls_off_m, 1e2 * report.focal_off);
+      std::snprintf(text.data(), text.size(), "Flown on with corrected balls and focal lengths, off the rig's by up to: %s",
+                    by.data());
+      return raise(event(now.time, Severity::kGood, text.data()));
+    case RefinementOutcome::kKept:
+      return raise(event(now.time, Severity::kGood, "Refined: images ask for no other balls and focal lengths"));
+    case RefinementOutcome::kUnsound:
+      return raise(event(now.time, Severity::kCaution,
+                         "Refined cameras alone: no balls or focal lengths within their sigmas fit the images"));
+    case RefinementOutcome::kNoAnswer:
+      return raise(event(now.time, Severity::kCaution, "Refinement without an answer: nothing is changed"));
+    case RefinementOutcome::kOvertaken:
+      return raise(event(now.time, Severity::kCaution,
+                         "Refinement broken off: a camera's place was changed meanwhile; nothing else is"));
+  }
 }
 
 void Announcer::announceRecord(const EngineSnapshot& now, const Sink& raise) {

@@ -46,6 +46,7 @@ class Announcer {
     std::uint32_t colours = 0;
     std::uint32_t backgrounds = 0;
   };
+  void announceRefinement(const EngineSnapshot& now, const Sink& raise);
   void announceRecord(const EngineSnapshot& now, const Sink& raise);
   void announceArming(const EngineSnapshot& now, const Sink& raise);
   void announceSafety(const EngineSnapshot& now, const Sink& raise);
@@ -66,6 +67,7 @@ class Announcer {
   bool gust_blew_ = false;
   bool disagreed_ = false;
   std::uint32_t cables_changed_ = 0;
+  std::uint32_t refinements_ = 0;
   const char* cold_start_ = nullptr;
   RecordHealth record_;
   std::array<Camera, kMaxCameras> cameras_{};

@@ -53,6 +53,12 @@ CableWatch::CableWatch(const MarkerLayout& markers, std::vector<CameraModel> cam
   for (int i = 0; i < kMaxCameras; ++i) camera_of_[static_cast<std::size_t>(i)] = cameraId(i);
 }
 
+void CableWatch::correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) {
+  markers_ = markers;
+  std::copy(cameras.begin(), cameras.end(), cameras_.begin());
+  acquisition_.correct(markers, cameras);
+}
+
 bool CableWatch::isOdd(std::size_t camera, TimeNs now) const {
   return odd_frames_[camera] >= kOddFrames && now - newest_[camera].exposure < kNow;
 }

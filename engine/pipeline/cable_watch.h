@@ -25,6 +25,9 @@ class CableWatch {
  public:
   CableWatch(const MarkerLayout& markers, std::vector<CameraModel> cameras, double standing_height);
 
+  /// See Tracker.
+  void correct(const MarkerLayout& markers, std::span<const CameraModel> cameras);
+
   /// The camera at the other end of a stream's cable; at first, the one that the stream is named after.
   CameraId cameraOf(CameraId stream) const { return camera_of_[indexOf(stream)]; }
   /// How often two were found changed.

@@ -28,6 +28,7 @@ struct CalibrationOrder {
   CameraId camera;
   RigidTransform camera_from_world;         ///< of kAdopt
   Matrix6d covariance = Matrix6d::Zero();  ///< of kAdopt; order of CameraEstimate
+  double focal_scale = 1.0;                 ///< of kAdopt, over the rig's: with which that place holds
 };
 
 /// In one word, as sessions have it.

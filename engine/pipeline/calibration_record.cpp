@@ -1,5 +1,6 @@
 #include "engine/pipeline/calibration_record.h"
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 
@@ -29,8 +30,12 @@ SavedCalibration calibrationOf(const RigConfig& rig, const EngineSnapshot& now) 
     if (camera.estimate.status != CameraStatus::kCalibrated) continue;
     const char* method = camera.calibration_method;
     saved.cameras.push_back({rig.cameras[i].label, method != nullptr ? method : "given",
-                             camera.estimate.camera_from_world, camera.estimate.covariance});
+                             camera.estimate.camera_from_world, camera.estimate.covariance,
+                             rig.cameras[i].focal_scale * camera.focal_scale});
   }
+  const MarkerLayout& of_file = rig.simulation.markers_before.value_or(rig.markers_in_body);
+  if (!std::ranges::equal(of_file.all(), now.markers.all()))
+    saved.markers_in_body.assign(now.markers.all().begin(), now.markers.all().end());
   if (saved.cameras.empty())
     throw Error(ErrorKind::kInput, "no camera is calibrated: there is nothing to save", rig.path,
                 "wait until one is in the control set");
@@ -48,14 +53,18 @@ SavedCalibration onlyOf(const SavedCalibration& saved, const CameraConfig& camer
 
 std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig) {
   std::vector<CalibrationOrder> orders;
-  for (const SavedCamera& camera : saved.cameras)
-    orders.push_back({CalibrationOrderKind::kAdopt, rig.camera(camera.label), camera.camera_from_world,
-                      camera.covariance});
+  for (const SavedCamera& camera : saved.cameras) {
+    const CameraId id = rig.camera(camera.label);
+    const double scale = camera.focal_scale / rig.cameras[static_cast<std::size_t>(id.index())].focal_scale;
+    orders.push_back(
+        {CalibrationOrderKind::kAdopt, id, camera.camera_from_world, camera.covariance, scale});
+  }
   return orders;
 }
 
 void giveCalibration(const SavedCalibration& saved, RigConfig& rig) {
   rig.simulation.true_camera_from_world.resize(rig.cameras.size());
+  if (!saved.markers_in_body.empty()) rig.replaceMarkers(saved.markers_in_body);
   for (const SavedCamera& camera : saved.cameras) {
     const auto index = static_cast<std::size_t>(rig.camera(camera.label).index());
     CameraConfig& config = rig.cameras[index];
@@ -64,6 +73,7 @@ void giveCalibration(const SavedCalibration& saved, RigConfig& rig) {
     config.camera_from_world = camera.camera_from_world;
     config.pose_is_guess = false;
     config.pose_covariance = camera.covariance;
+    rig.replaceFocalLengths(index, camera.focal_scale);
   }
 }
 

@@ -115,6 +115,12 @@ bool CameraCalibration::accept() {
   return true;
 }
 
+void CameraCalibration::correct(const CameraModel& camera, const MarkerLayout& markers) {
+  camera_ = camera;
+  markers_ = markers;
+  calibrator_->correct(camera, markers);
+}
+
 bool CameraCalibration::goOnFrom(const CameraEstimate& estimate) {
   if (!calibrator_->goOnFrom(estimate)) return false;
   admission_.status = CameraStatus::kCalibrated;

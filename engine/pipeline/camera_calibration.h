@@ -36,6 +36,10 @@ class CameraCalibration {
   /// when it disagrees. False if it does not know its place, or disagrees already.
   bool accept();
 
+  /// Balls and focal lengths were found to be these. Names are still sought by the layout as it was: they do not
+  /// depend on millimetres.
+  void correct(const CameraModel& camera, const MarkerLayout& markers);
+
   /// Learns on from what others found for it, as admitted; false, and nothing changes, if its method cannot.
   bool goOnFrom(const CameraEstimate& estimate);
 

@@ -16,8 +16,10 @@ constexpr int kSureBalls = 3;  // that another camera sees where the pose says: 
 ControlSet::ControlSet(const RigConfig& rig)
     : cameras_(rig.cameras.size()),
       markers_(rig.markers_in_body),
+      rig_markers_(rig.markers_in_body),
       learn_from_own_pose_(rig.learn_from_own_pose) {
   for (const CameraConfig& camera : rig.cameras) models_.push_back(camera.model);
+  rig_models_ = models_;
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraConfig& camera = rig.cameras[i];
     if (camera.camera_from_world) {
@@ -39,7 +41,9 @@ ControlSet::ControlSet(const RigConfig& rig)
     cold_start_ = std::make_unique<ColdStart>(models_, markers_, rig.helicopter.standing_height, estimates());
     for (std::size_t i = 0; i < cameras_; ++i) found_by_cold_start_[i] = learning_[i];
   }
-  refinement_ = std::make_unique<RigRefinement>(models_, markers_);
+  RigRefinementOptions refinement;
+  refinement.self = rig.self_calibration;
+  refinement_ = std::make_unique<RigRefinement>(models_, markers_, refinement);
   // A rank for each camera that may be knocked, one after the other.
   for (std::size_t r = 0; r <= cameras_ + 1; ++r)
     teachers_.push_back(
@@ -86,8 +90,9 @@ void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   const std::size_t index = indexOf(camera);
   if (!calibration) return;
   calibrations_[index].swap(calibration);
+  calibrations_[index]->correct(models_[index], markers_);
   if (!learning_[index]) return;
-  refining_[index] = refined_[index] = false;
+  leaveRefinement(index);
   estimates_[index] = calibrations_[index]->estimate();
   bounds_[index].restart();
   refreshUsable();
@@ -98,6 +103,8 @@ const char* ControlSet::obey(const CalibrationOrder& order) {
   switch (order.kind) {
     case CalibrationOrderKind::kFreeze:
       frozen_[index] = true;
+      // It stays where it is, whatever a refinement that goes on will find.
+      if (refining_[index]) leaveRefinement(index);
       return nullptr;
     case CalibrationOrderKind::kResume:
       frozen_[index] = false;
@@ -112,10 +119,12 @@ const char* ControlSet::obey(const CalibrationOrder& order) {
       if (!given_[index]) return "the rig file does not say where it stands";
       found_by_cold_start_[index] = false;
       place(index, *given_[index]);
+      setFocalScale(index, 1.0);
       return nullptr;
     case CalibrationOrderKind::kAdopt:
       found_by_cold_start_[index] = false;
       place(index, {order.camera_from_world, order.covariance, CameraStatus::kCalibrated});
+      setFocalScale(index, order.focal_scale);
       return nullptr;
     case CalibrationOrderKind::kRefine:
       return startRefinement();
@@ -125,7 +134,7 @@ const char* ControlSet::obey(const CalibrationOrder& order) {
 
 void ControlSet::place(std::size_t camera, const CameraEstimate& estimate) {
   estimates_[camera] = estimate;
-  refining_[camera] = refined_[camera] = false;
+  leaveRefinement(camera);
   learning_[camera] = false;
   rank_[camera] = 0;
   detectors_[camera] = KnockDetector();
@@ -146,10 +155,12 @@ const char* ControlSet::method(CameraId camera) const {
 }
 
 const char* ControlSet::instruction() const {
-  return cold_start_ ? cold_start_->instruction() : nullptr;
+  return cold_start_ && !corrected_ ? cold_start_->instruction() : nullptr;
 }
 
 void ControlSet::startCold(const Observation& observation, bool airborne) {
+  // It knows the balls as the rig has them; cameras that still have no place learn from the others.
+  if (corrected_) return;
   // In flight it goes on only for cameras that still have no place.
   bool wanted = !airborne;
   for (std::size_t i = 0; i < cameras_; ++i) wanted = wanted || (found_by_cold_start_[i] && learning_[i]);
@@ -210,7 +221,7 @@ void ControlSet::takeOut(std::size_t camera, int witnesses, const Tracker& track
   else
     set_aside_[camera] = estimates_[camera];
   found_by_cold_start_[camera] = refined_[camera] = refining_[camera] = false;
-  refinement_->forget(cameraId(static_cast<int>(camera)));
+  forgetViews(camera);
   steps_.forget(cameraId(static_cast<int>(camera)));
   int highest = 0;
   for (std::size_t i = 0; i < cameras_; ++i)
@@ -270,7 +281,10 @@ void ControlSet::teach(const Observation& observation, const Tracker& tracker, b
   if (views < kTeachers && !learn_from_own_pose_) return;
   const TrackedState helicopter = teacher.predict(observation.exposure, airborne);
   calibrations_[index]->step(observation, helicopter);
+  const bool was_in = estimates_[index].status == CameraStatus::kCalibrated;
   estimates_[index] = calibrations_[index]->estimate();
+  // What it took for the balls so far may have been others.
+  if (was_in && estimates_[index].status != CameraStatus::kCalibrated) forgetViews(index);
   addToBound(observation, tracker, helicopter.state.world_from_body);
 }
 

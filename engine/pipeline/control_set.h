@@ -9,6 +9,7 @@
 #include "engine/calibration/cold_start.h"
 #include "engine/calibration/knock_detector.h"
 #include "engine/calibration/live_bound.h"
+#include "engine/calibration/refinement_report.h"
 #include "engine/calibration/rig_refinement.h"
 #include "engine/calibration/step_detector.h"
 #include "engine/config/rig_config.h"
@@ -60,6 +61,13 @@ class ControlSet {
   /// While too few cameras are known to fly: what the operator has to do; a literal, else null.
   const char* instruction() const;
   std::optional<CalibrationBound> bound(CameraId camera) const { return bounds_[indexOf(camera)].bound(); }
+  /// Balls and lenses: as the rig has them, or as a refinement found them.
+  const MarkerLayout& markers() const { return markers_; }
+  std::span<const CameraModel> models() const { return models_; }
+  double focalScale(CameraId camera) const { return refinement_->focalScale(camera); }  ///< over the rig's
+  /// Whether they have changed since this was asked: those who look by them have to follow.
+  bool takeCorrection();
+  const RefinementReport& refinement() const { return report_; }
   /// Two were left, and one of them was moved.
   bool camerasDisagree() const;
   /// Where each camera stands, in control or as it was set aside; null where nobody vouches for a place.
@@ -97,10 +105,20 @@ class ControlSet {
   void showToRefinement(const Observation& observation, const Tracker& tracker, const RigidTransform& flown);
   const char* startRefinement();
   void takeRefinement(const Eigen::Vector3d& helicopter_in_world);
+  /// Its pose is told by others from here on.
+  void leaveRefinement(std::size_t camera);
+  void correctFromRefinement();
+  void setFocalScale(std::size_t camera, double scale);
+  /// What it saw so far tells refinements nothing.
+  void forgetViews(std::size_t camera);
+  void endRefinement(RefinementOutcome outcome);
 
   std::size_t cameras_;
-  std::vector<CameraModel> models_;
-  MarkerLayout markers_;
+  std::vector<CameraModel> models_, rig_models_;
+  MarkerLayout markers_, rig_markers_;
+  bool corrected_ = false;          ///< at any time
+  bool fresh_correction_ = false;   ///< that the tracker does not know of yet
+  RefinementReport report_;
   bool learn_from_own_pose_;
   std::array<CameraEstimate, kMaxCameras> estimates_;
   std::array<bool, kMaxCameras> hidden_{};

@@ -1,6 +1,9 @@
 // What cameras and tracker together say of a frame, for those who look at several cameras at once: the joint
 // refinement, and the search for small knocks.
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/calibration/admission.h"
 #include "engine/pipeline/control_set.h"
 
@@ -66,6 +69,7 @@ const char* ControlSet::startRefinement() {
   for (std::size_t i = 0; i < cameras_; ++i) {
     RigRefinement::Part& part = parts[i];
     part.estimate = estimates_[i];
+    part.frozen = frozen_[i];
     part.holds = estimates_[i].status == CameraStatus::kCalibrated && !learning_[i];
     part.used = part.holds || (learning_[i] && calibrations_[i]->calibrator().namesCentroids() &&
                                calibrations_[i]->calibrator().knowsItsPlace());
@@ -76,9 +80,66 @@ const char* ControlSet::startRefinement() {
   return nullptr;
 }
 
-/// Cameras that are known as well by it as they were, or better. One that learns goes on from there.
+void ControlSet::leaveRefinement(std::size_t camera) {
+  // Balls and focal lengths that were solved for with another pose of this camera would not be true with this one.
+  if (refining_[camera] && refinement_->corrects()) {
+    refinement_->stop();
+    endRefinement(RefinementOutcome::kOvertaken);
+  }
+  refining_[camera] = refined_[camera] = false;
+}
+
+void ControlSet::forgetViews(std::size_t camera) {
+  if (refinement_->running()) endRefinement(RefinementOutcome::kOvertaken);
+  refinement_->forget(cameraId(static_cast<int>(camera)));
+}
+
+void ControlSet::endRefinement(RefinementOutcome outcome) {
+  ++report_.ended;
+  report_.outcome = outcome;
+  report_.balls_off_m = report_.focal_off = 0.0;
+  for (int m = 0; m < markers_.count(); ++m)
+    report_.balls_off_m = std::max(report_.balls_off_m,
+                                   (markers_.inBody(markerId(m)) - rig_markers_.inBody(markerId(m))).norm());
+  for (std::size_t i = 0; i < cameras_; ++i)
+    report_.focal_off = std::max(report_.focal_off, std::abs(focalScale(cameraId(static_cast<int>(i))) - 1.0));
+}
+
+bool ControlSet::takeCorrection() {
+  const bool fresh = fresh_correction_;
+  fresh_correction_ = false;
+  return fresh;
+}
+
+void ControlSet::setFocalScale(std::size_t camera, double scale) {
+  const CameraId id = cameraId(static_cast<int>(camera));
+  if (scale == focalScale(id)) return;
+  refinement_->setFocalScale(id, scale);
+  correctFromRefinement();
+}
+
+/// All who look by balls and lenses, at once; the tracker when the loop asks.
+void ControlSet::correctFromRefinement() {
+  markers_ = refinement_->markers();
+  for (std::size_t i = 0; i < cameras_; ++i) {
+    const CameraId id = cameraId(static_cast<int>(i));
+    models_[i] = rig_models_[i].withFocalScale(focalScale(id));
+    calibrations_[i]->correct(models_[i], markers_);
+    // Every camera's balls step in its image now, and none was knocked.
+    steps_.forget(id);
+    detectors_[i] = KnockDetector();
+  }
+  for (const auto& teacher : teachers_) teacher->correct(markers_, models_);
+  corrected_ = fresh_correction_ = true;
+}
+
+/// Cameras that are known as well by it as they were, or better. One that learns goes on from there. Where balls or
+/// focal lengths were wrong, what a camera knew by itself rests on the wrong ones and is no measure: all follow.
 void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
   const double reach_m = AdmissionOptions().reach_m;
+  const RigRefinement::Correction correction = refinement_->correction();
+  const bool corrects = correction == RigRefinement::Correction::kFound;
+  if (corrects) correctFromRefinement();
   for (std::size_t i = 0; i < cameras_; ++i) {
     if (!refining_[i]) continue;
     refining_[i] = false;
@@ -87,13 +148,28 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
     const double doubt = uncertaintyAround(models_[i], found, helicopter_in_world, reach_m);
     const bool admissible = usable_[i] || doubt < AdmissionOptions().admit_uncertainty_m;
     const double alone = uncertaintyAround(models_[i], estimates_[i], helicopter_in_world, reach_m);
-    if (!admissible || doubt > kWorseThanAlone * alone) continue;
+    if (!corrects && (!admissible || doubt > kWorseThanAlone * alone)) continue;
+    if (!admissible) {
+      calibrations_[i]->restart(found.camera_from_world, estimates_[i].status);
+      estimates_[i] = calibrations_[i]->estimate();
+      continue;
+    }
     found_by_cold_start_[i] = false;
     if (learning_[i] && calibrations_[i]->goOnFrom(found))
       estimates_[i] = calibrations_[i]->estimate();
     else
       place(i, found);
     refined_[i] = true;
+  }
+  switch (correction) {
+    case RigRefinement::Correction::kNotSought:
+      return endRefinement(refinement_->succeeded() ? RefinementOutcome::kCameras : RefinementOutcome::kNoAnswer);
+    case RigRefinement::Correction::kFound:
+      return endRefinement(RefinementOutcome::kCorrected);
+    case RigRefinement::Correction::kNotNeeded:
+      return endRefinement(RefinementOutcome::kKept);
+    case RigRefinement::Correction::kUnsound:
+      return endRefinement(RefinementOutcome::kUnsound);
   }
 }
 

@@ -38,6 +38,7 @@ FlightLoop::FlightLoop(const RigConfig& rig, const FlightPlan& plan)
       autopilot_(plan, rig.control, rig.safety, rig.helicopter) {
   snapshot_.camera_count = static_cast<int>(rig.cameras.size());
   snapshot_.marker_count = rig.markers_in_body.count();
+  snapshot_.markers = rig.markers_in_body;
 }
 
 void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
@@ -54,6 +55,10 @@ void FlightLoop::use(const Observation& observation, TimeNs now) {
   count(observation, now);
   health_.onObservation(observation, now);
   if (now - observation.exposure > kLatest || health_.clockHasJumped(observation.camera)) return;
+  if (control_set_.takeCorrection()) {
+    tracker_->correct(control_set_.markers(), control_set_.models());
+    cables_.correct(control_set_.markers(), control_set_.models());
+  }
   const TimeNs last_update = tracker_->lastUpdate();
   tracker_->update(observation, control_set_.estimates(), control_set_.usable(), airborne_);
   // Frames that waited for a starved processor are as old as they are.
@@ -150,6 +155,8 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
   snapshot_.obstacle = output.obstacle;
   snapshot_.refusal = output.refusal;
   snapshot_.ticks_per_second = rig_.control.rate_hz;
+  snapshot_.markers = control_set_.markers();
+  snapshot_.refinement = control_set_.refinement();
   snapshot_.cameras_disagree = control_set_.camerasDisagree();
   snapshot_.cables_changed = cables_.changes();
   snapshot_.cold_start = airborne_ || snapshot_.pose_known ? nullptr : control_set_.instruction();
@@ -157,6 +164,7 @@ void FlightLoop::fillSnapshot(TimeNs now, const AutopilotOutput& output) {
     const CameraId id = cameraId(static_cast<int>(i));
     CameraSnapshot& camera = snapshot_.cameras[i];
     camera.estimate = control_set_.estimates()[i];
+    camera.focal_scale = control_set_.focalScale(id);
     camera.hidden = control_set_.hidden(id);
     camera.calibration_method = control_set_.method(id);
     camera.calibration_bound = control_set_.bound(id);
@@ -171,8 +179,8 @@ BallPredictions FlightLoop::expectedBalls(CameraId stream) const {
   const CameraId camera = cables_.cameraOf(stream);
   const auto index = static_cast<std::size_t>(camera.index());
   if (!snapshot_.pose_known || !control_set_.usable()[index]) return {};
-  return forecastBalls(snapshot_.tracked, control_set_.estimates()[index], rig_.cameras[index].model,
-                       rig_.markers_in_body);
+  return forecastBalls(snapshot_.tracked, control_set_.estimates()[index], control_set_.models()[index],
+                       control_set_.markers());
 }
 
 void FlightLoop::measureRates(TimeNs now) {

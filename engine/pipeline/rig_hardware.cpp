@@ -10,6 +10,7 @@
 #include "engine/simulator/random_streams.h"
 #include "engine/simulator/simulated_camera.h"
 #include "engine/simulator/simulated_observer.h"
+#include "engine/simulator/true_rig.h"
 
 namespace helical {
 void RigHardware::addTruth(EngineSnapshot& snapshot, TimeNs now) const {
@@ -78,17 +79,19 @@ void addSimulated(RigHardware& hardware, const RigConfig& rig, const CameraConfi
                   const std::shared_ptr<Clock>& clock, const ExtractingSource::FrameTap& tap) {
   const CameraId id = addCamera(hardware, camera);
   const RigidTransform truth = trueCameraFromWorld(rig, id);
+  const MarkerLayout markers = trueMarkers(rig.markers_in_body, rig.simulation);
+  const CameraModel model = trueModel(id, camera.model, rig.simulation);
   hardware.disturbances.back().emplace(id, rig.simulation, truth,
                                        randomStream(rig.simulation.seed, RandomStream::kKnocks, id));
   if (rig.simulation.images) {
-    auto source = std::make_unique<SimulatedCamera>(id, camera.model, truth, rig.markers_in_body,
+    auto source = std::make_unique<SimulatedCamera>(id, model, truth, markers,
                                                     rig.marker_options.background_frames, rig.simulation,
                                                     hardware.world, clock);
     hardware.sources.push_back(std::make_unique<DisturbedSource>(
         extracted(hardware, rig, camera, std::move(source), tap), camera.model, rig.simulation));
   } else {
     auto source =
-        std::make_unique<SimulatedObserver>(id, camera.model, truth, rig.markers_in_body, rig.marker_options,
+        std::make_unique<SimulatedObserver>(id, model, truth, markers, rig.marker_options,
                                             rig.simulation, hardware.world, clock);
     auto tampered = std::make_unique<TamperedObserver>(std::move(source), hardware.tampering.back());
     hardware.sources.push_back(std::make_unique<IgnoringSource>(std::move(tampered), hardware.orders.back()));

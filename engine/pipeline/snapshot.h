@@ -9,11 +9,13 @@
 
 #include "engine/base/time.h"
 #include "engine/calibration/cramer_rao.h"
+#include "engine/calibration/refinement_report.h"
 #include "engine/cameras/camera_link.h"
 #include "engine/cameras/frame.h"
 #include "engine/correspondence/tried_labellings.h"
 #include "engine/flight/flight_state.h"
 #include "engine/geometry/camera_estimate.h"
+#include "engine/helicopter/marker_layout.h"
 #include "engine/helicopter/stick_demand.h"
 #include "engine/simulator/verdict.h"
 #include "engine/tracking/track.h"
@@ -24,6 +26,7 @@ namespace helical {
 /// One camera as the flight thread sees it.
 struct CameraSnapshot {
   CameraEstimate estimate;
+  double focal_scale = 1.0;                  ///< of its lens, over the rig's
   const char* calibration_method = nullptr;  ///< by which the pose is learnt in flight; null if it was given
   double effective_sample_size = 0.0;        ///< of its hypotheses; 0 for methods without
   TriedLabellings labellings;                ///< that its calibration has weighed up; none if its pose was given
@@ -76,6 +79,8 @@ struct EngineSnapshot {
   std::uint64_t tick = 0;
   int camera_count = 0;
   int marker_count = 0;
+  MarkerLayout markers;  ///< in the body: the rig's, or where a refinement found them
+  RefinementReport refinement;
   bool pose_known = false;  ///< tracked now
   TimeNs pose_age = 0;      ///< since the last accepted observation
   FlightPhase phase = FlightPhase::kIdle;

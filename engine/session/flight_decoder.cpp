@@ -29,6 +29,7 @@ FlightDecoder::FlightDecoder(const McapReader& session, const RigConfig& rig) {
   }
   initial_.camera_count = static_cast<int>(rig.cameras.size());
   initial_.marker_count = rig.markers_in_body.count();
+  initial_.markers = rig.markers_in_body;
   restart();
 }
 

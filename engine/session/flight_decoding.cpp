@@ -197,6 +197,7 @@ void decodeCameraState(std::string_view payload, CameraSnapshot& camera, Words& 
   camera.light.gain = in.get<double>();
   camera.light.gain_in_db = in.getBool();
   camera.labellings = getLabellings(in);
+  if (!in.atEnd()) camera.focal_scale = in.get<double>();
 }
 
 void decodeTrackedPose(std::string_view payload, TrackedState& tracked) {
@@ -305,6 +306,7 @@ DecodedOrder decodeOrder(std::string_view payload) {
   for (double& each : decided.camera_from_world.translation) each = in.get<double>();
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) decided.covariance(row, column) = in.get<double>();
+  if (!in.atEnd()) decided.focal_scale = in.get<double>();
   for (const CalibrationOrderKind kind : kCalibrationOrderKinds)
     if (order.kind == toString(kind)) {
       decided.kind = kind;

@@ -199,6 +199,7 @@ void encodeCameraState(CdrWriter& out, TimeNs time, const CameraSnapshot& camera
   out.put(camera.light.gain);
   out.put(camera.light.gain_in_db);
   putLabellings(out, camera.labellings);
+  out.put(camera.focal_scale);
 }
 
 void encodeCameraInfo(CdrWriter& out, const CameraConfig& camera) {
@@ -358,6 +359,7 @@ void putOrder(CdrWriter& out, std::uint64_t order, TimeNs time, const char* kind
   out.putAll(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
   out.putAll(decided.camera_from_world.translation);
   out.putAll(decided.covariance);
+  out.put(decided.focal_scale);
 }
 
 }  // namespace

@@ -126,7 +126,8 @@ constexpr Definition kDefinitions[] = {
      "string labellings       # the best that its calibration has weighed up, the taken one first; of each the\n"
      "                        # markers of the balls from left to right in the image: 2-0-1-3\n"
      "float32[6] labelling_value  # of each De, from the first guess to its pose in m; not a number: there is none\n"
-     "bool labelling_misfit   # it is no distance but the misfit to the frames in standard deviations\n"},
+     "bool labelling_misfit   # it is no distance but the misfit to the frames in standard deviations\n"
+     "float64 focal_scale     # of its focal lengths, over the rig's: as a refinement found them\n"},
     {"helical_msgs/OperatorOrder",
      "std_msgs/Header header\n"
      "uint64 order            # of what reached the flight thread\n"
@@ -135,7 +136,8 @@ constexpr Definition kDefinitions[] = {
      "int32 camera            # counted from 0\n"
      "string method           # of a change: its values as JSON\nuint64 seed\n"
      "float64[7] camera_from_world  # of adopt: quaternion w x y z, then the translation\n"
-     "float64[36] covariance   # of adopt: rotation in the camera's frame, then its centre in the world\n"},
+     "float64[36] covariance   # of adopt: rotation in the camera's frame, then its centre in the world\n"
+     "float64 focal_scale      # of adopt: of its focal lengths, over the rig's\n"},
 };
 
 constexpr std::string_view kNames[kMessageKinds] = {

@@ -43,6 +43,25 @@ std::optional<Matrix6d> covarianceOf(const json& camera) {
   return Matrix6d(Eigen::Map<const Matrix6d>(camera.at("covariance").get<std::array<double, 36>>().data()));
 }
 
+/// Null where the balls are where the rig file has them.
+json markersJson(const RigConfig& rig) {
+  if (!rig.simulation.markers_before) return nullptr;
+  json balls = json::array();
+  for (const Eigen::Vector3d& ball : rig.markers_in_body.all()) balls.push_back({ball.x(), ball.y(), ball.z()});
+  return balls;
+}
+
+/// All of these are absent in sessions of the time when there was none.
+void applySelfCalibration(const json& value, RigConfig& rig) {
+  rig.self_calibration.marker_sigma_m = value.value("marker_sigma_m", 0.0);
+  rig.self_calibration.focal_sigma = value.value("focal_sigma", 0.0);
+  if (!value.contains("markers_m") || value.at("markers_m").is_null()) return;
+  std::vector<Eigen::Vector3d> balls;
+  for (const auto& ball : value.at("markers_m").get<std::vector<std::array<double, 3>>>())
+    balls.emplace_back(ball[0], ball[1], ball[2]);
+  rig.replaceMarkers(balls);
+}
+
 json camerasJson(const RigConfig& rig) {
   json cameras = json::array();
   const auto& truths = rig.simulation.true_camera_from_world;
@@ -51,6 +70,7 @@ json camerasJson(const RigConfig& rig) {
                        {"camera_from_world", poseJson(rig.cameras[i].camera_from_world)},
                        {"initial", rig.cameras[i].pose_is_guess},
                        {"covariance", covarianceJson(rig.cameras[i].pose_covariance)},
+                       {"focal_scale", rig.cameras[i].focal_scale},
                        {"true_camera_from_world", i < truths.size() ? poseJson(truths[i]) : json(nullptr)}});
   return cameras;
 }
@@ -74,6 +94,8 @@ json simulationJson(const SimulationOptions& simulation) {
           {"sigma_px", simulation.noise.sigma_px},
           {"lost_markers", simulation.noise.lost_markers},
           {"outliers", simulation.noise.outliers},
+          {"marker_error_m", simulation.marker_error_m},
+          {"focal_error", simulation.focal_error},
           {"occlusions", occlusions},
           {"bumps", bumps}};
 }
@@ -92,6 +114,8 @@ void applySimulation(const json& value, RigConfig& rig) {
   simulation.noise.sigma_px = value.at("sigma_px").get<double>();
   simulation.noise.lost_markers = value.at("lost_markers").get<double>();
   simulation.noise.outliers = value.at("outliers").get<double>();
+  simulation.marker_error_m = value.value("marker_error_m", 0.0);
+  simulation.focal_error = value.value("focal_error", 0.0);
   simulation.occlusions.clear();
   for (const auto& occlusion : value.at("occlusions"))
     simulation.occlusions.push_back({cameraOf(occlusion.at("camera"), rig),
@@ -113,6 +137,7 @@ void applySettings(const json& value, SessionSettings& settings) {
   rig.calibrator = value.at("calibrator").get<std::string>();
   rig.learn_from_own_pose = value.at("learn_from_own_pose").get<bool>();
   applySimulation(value.at("simulation"), rig);
+  applySelfCalibration(value, rig);
   const json& cameras = value.at("cameras");
   rig.simulation.true_camera_from_world.resize(rig.cameras.size());
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -120,6 +145,7 @@ void applySettings(const json& value, SessionSettings& settings) {
     rig.cameras[i].camera_from_world = poseOf(camera.at("camera_from_world"));
     rig.cameras[i].pose_is_guess = camera.at("initial").get<bool>();
     rig.cameras[i].pose_covariance = covarianceOf(camera);
+    rig.replaceFocalLengths(i, camera.value("focal_scale", 1.0));
     rig.simulation.true_camera_from_world[i] = poseOf(camera.at("true_camera_from_world"));
   }
 }
@@ -144,6 +170,9 @@ std::vector<McapAttachment> toAttachments(const SessionSettings& settings) {
                    {"tracker", rig.tracker},
                    {"calibrator", rig.calibrator},
                    {"learn_from_own_pose", rig.learn_from_own_pose},
+                   {"marker_sigma_m", rig.self_calibration.marker_sigma_m},
+                   {"focal_sigma", rig.self_calibration.focal_sigma},
+                   {"markers_m", markersJson(rig)},
                    {"simulation", simulationJson(rig.simulation)},
                    {"cameras", camerasJson(rig)}};
   return {{kRigName, "application/toml", settings.rig_text},

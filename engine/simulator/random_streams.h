@@ -12,11 +12,13 @@ enum class RandomStream : std::uint64_t {
   kGusts,
   kTransmitter,
   kCarrying,
+  kMarkers,
   kKnocks = 100,  ///< and below: one for each camera
   kExposures = 200,
   kObservations = 300,
   kImages = 400,
   kFirstGuesses = 500,
+  kFocalLengths = 600,
 };
 
 inline Random randomStream(std::uint64_t seed, RandomStream stream, CameraId camera = {}) {

@@ -25,6 +25,8 @@ void validate(const SimulationOptions& o) {
   requireRange(o.field_empty_s, 0.0, 60.0, "field_empty_s");
   requireRange(o.image_noise, 0.0, 50.0, "image_noise");
   requireRange(o.light_drift, 0.0, 0.5, "light_drift");
+  requireRange(o.marker_error_m, 0.0, 0.02, "marker_error_m");
+  requireRange(o.focal_error, 0.0, 0.1, "focal_error");
   requireRange(o.noise.sigma_px, 0.0, 20.0, "noise.sigma_px");
   requireRange(o.noise.bias_px, 0.0, 20.0, "noise.bias_px");
   requireRange(o.noise.bias_time_s, 0.001, 1000.0, "noise.bias_time_s");

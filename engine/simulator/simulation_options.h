@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "engine/base/ids.h"
+#include "engine/geometry/camera_model.h"
 #include "engine/geometry/rigid_transform.h"
+#include "engine/helicopter/marker_layout.h"
 
 namespace helical {
 
@@ -52,11 +54,16 @@ struct SimulationOptions {
   double field_empty_s = 0.25;     ///< before the helicopter is put on the pad: time to take the background
   double image_noise = 2.0;        ///< grey levels, standard deviation
   double light_drift = 0.05;       ///< relative, over half a minute
+  double marker_error_m = 0.0;     ///< per axis, drawn: balls are not where the rig says
+  double focal_error = 0.0;        ///< share, drawn per camera: focal lengths are not what the rig says
   ObservationNoise noise;
   std::vector<Occlusion> occlusions;
   std::vector<Bump> bumps;
   /// True poses of cameras whose pose the rig file does not give, or gives as a first guess only.
   std::vector<std::optional<RigidTransform>> true_camera_from_world;
+  /// What balls and lenses are in truth, but for the errors above, where a saved calibration says otherwise.
+  std::optional<MarkerLayout> markers_before;
+  std::vector<std::optional<CameraModel>> models_before;
 };
 
 /// Throws Error(kInput) naming the offending key.

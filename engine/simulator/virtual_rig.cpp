@@ -8,6 +8,7 @@
 #include "engine/base/monotonic.h"
 #include "engine/simulator/random_streams.h"
 #include "engine/simulator/simulated_view.h"
+#include "engine/simulator/true_rig.h"
 
 namespace helical {
 namespace {
@@ -27,8 +28,11 @@ class VirtualRig::Lens {
  public:
   Lens(VirtualRig& rig, std::size_t index)
       : rig_(rig),
-        view_(cameraId(static_cast<int>(index)), rig.options_.cameras[index].model,
-              rig.options_.cameras[index].camera_from_world, rig.options_.markers, rig.options_.simulation) {}
+        view_(cameraId(static_cast<int>(index)),
+              trueModel(cameraId(static_cast<int>(index)), rig.options_.cameras[index].model,
+                        rig.options_.simulation),
+              rig.options_.cameras[index].camera_from_world,
+              trueMarkers(rig.options_.markers, rig.options_.simulation), rig.options_.simulation) {}
 
   ImageView picture(TimeNs mid_exposure) {
     const Field field = rig_.field();

@@ -72,6 +72,11 @@ struct Acquisition::Best {
 Acquisition::Acquisition(const MarkerLayout& markers, std::vector<CameraModel> cameras)
     : markers_(markers), cameras_(std::move(cameras)) {}
 
+void Acquisition::correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) {
+  markers_ = markers;
+  std::copy(cameras.begin(), cameras.end(), cameras_.begin());
+}
+
 void Acquisition::add(const Observation& observation) {
   const auto index = static_cast<std::size_t>(observation.camera.index());
   newest_[index] = observation;

@@ -33,6 +33,9 @@ class Acquisition {
  public:
   Acquisition(const MarkerLayout& markers, std::vector<CameraModel> cameras);
 
+  /// See Tracker.
+  void correct(const MarkerLayout& markers, std::span<const CameraModel> cameras);
+
   /// Keeps the newest observation of each camera.
   void add(const Observation& observation);
 

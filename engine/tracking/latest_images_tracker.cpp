@@ -34,6 +34,12 @@ LatestImagesTracker::LatestImagesTracker(const MarkerLayout& markers, std::vecto
     views_.push_back({LabelKeeper({}, markers_.count()), {}, {}, false, {}});
 }
 
+void LatestImagesTracker::correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) {
+  markers_ = markers;
+  std::copy(cameras.begin(), cameras.end(), cameras_.begin());
+  acquisition_.correct(markers, cameras);
+}
+
 void LatestImagesTracker::adopt(const Tracker& other) {
   const auto* const same = dynamic_cast<const LatestImagesTracker*>(&other);
   HELICAL_CHECK(same != nullptr && same->cameras_.size() == cameras_.size());

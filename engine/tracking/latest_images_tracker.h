@@ -21,6 +21,7 @@ class LatestImagesTracker final : public Tracker {
 
   void update(const Observation& observation, std::span<const CameraEstimate> cameras,
               std::span<const bool> usable, bool airborne) override;
+  void correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) override;
   void adopt(const Tracker& other) override;
   bool acquired() const override { return acquired_; }
   TimeNs lastUpdate() const override { return pose_time_; }

@@ -30,6 +30,10 @@ constexpr double kGapSpeedSigma = 0.3, kGapSpeedSigmaPerS = 0.7, kLargestGapSpee
 constexpr double kGapSpinSigma = 1.0, kGapSpinSigmaPerS = 3.0, kLargestGapSpinSigma = 6.0;
 constexpr double kGapWithoutATurn = 0.2;  // s, over which two headings tell how it turns
 
+// How far the pose may be off once balls and focal lengths are corrected, per axis.
+constexpr double kCorrectedPosition = 0.02;  // m
+constexpr double kCorrectedRotation = 0.01;  // rad
+
 using MeasurementMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxMarkers, 2 * kMaxMarkers>;
 using MeasurementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxMarkers, 1>;
@@ -63,6 +67,15 @@ PixelFilter::PixelFilter(const TrackerOptions& options, const MarkerLayout& mark
       noise_({options.acceleration_noise_lateral, options.acceleration_noise_vertical,
               options.spin_noise_tilt, options.spin_noise_yaw}),
       acquisition_(markers, cameras_) {}
+
+void PixelFilter::correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) {
+  markers_ = markers;
+  std::copy(cameras.begin(), cameras.end(), cameras_.begin());
+  acquisition_.correct(markers, cameras);
+  // The next frames say where it is by these: not as a velocity, and not outside the gates.
+  covariance_.block<3, 3>(kPositionError, kPositionError).diagonal().array() += kCorrectedPosition * kCorrectedPosition;
+  covariance_.block<3, 3>(kRotationError, kRotationError).diagonal().array() += kCorrectedRotation * kCorrectedRotation;
+}
 
 void PixelFilter::adopt(const Tracker& other) {
   const auto* const same = dynamic_cast<const PixelFilter*>(&other);

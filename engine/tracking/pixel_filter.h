@@ -27,6 +27,7 @@ class PixelFilter final : public Tracker {
   /// Observations of different cameras may come out of order by 30 ms; older ones are not used.
   void update(const Observation& observation, std::span<const CameraEstimate> cameras,
               std::span<const bool> usable, bool airborne) override;
+  void correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) override;
   void adopt(const Tracker& other) override;
   bool acquired() const override { return acquired_; }
   TimeNs lastUpdate() const override { return last_update_; }

@@ -24,6 +24,10 @@ class Tracker {
   virtual void update(const Observation& observation, std::span<const CameraEstimate> cameras,
                       std::span<const bool> usable, bool airborne) = 0;
 
+  /// Balls and focal lengths were found to be these; cameras in their order. Where the helicopter is jumps by so
+  /// little that the tracker follows.
+  virtual void correct(const MarkerLayout& markers, std::span<const CameraModel> cameras) = 0;
+
   /// Goes on from where another tracker of the same kind and rig is.
   virtual void adopt(const Tracker& other) = 0;
 

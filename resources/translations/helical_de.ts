@@ -2452,8 +2452,68 @@ m/s</translation>
         <translation>Scharf</translation>
     </message>
     <message>
-        <source>solved for together with all others</source>
-        <translation>wird mit allen anderen zusammen bestimmt</translation>
+        <source>Refinement of all cameras begins</source>
+        <translation>Alle Kameras werden zusammen nachbestimmt</translation>
+    </message>
+    <message>
+        <source>Refinement refused:</source>
+        <translation>Nachbestimmung nicht ausgeführt:</translation>
+    </message>
+    <message>
+        <source>%.1f mm, %.2f %%</source>
+        <translation>%.1f mm, %.2f %%</translation>
+    </message>
+    <message>
+        <source>Flown on with corrected balls and focal lengths, off the rig's by up to:</source>
+        <translation>Ab jetzt mit berichtigten Kugeln und Brennweiten, neben denen des Aufbaus um bis zu:</translation>
+    </message>
+    <message>
+        <source>Refined: cameras stand where all of them together say</source>
+        <translation>Nachbestimmt: Kameras stehen, wo alle zusammen sagen</translation>
+    </message>
+    <message>
+        <source>Refined: images ask for no other balls and focal lengths</source>
+        <translation>Nachbestimmt: die Bilder verlangen keine anderen Kugeln und Brennweiten</translation>
+    </message>
+    <message>
+        <source>Refined cameras alone: no balls or focal lengths within their sigmas fit the images</source>
+        <translation>Nur Kameras nachbestimmt: keine Kugeln oder Brennweiten in ihren Grenzen passen zu den Bildern</translation>
+    </message>
+    <message>
+        <source>Refinement without an answer: nothing is changed</source>
+        <translation>Nachbestimmung ohne Ergebnis: nichts ist geändert</translation>
+    </message>
+    <message>
+        <source>Refinement broken off: a camera's place was changed meanwhile; nothing else is</source>
+        <translation>Nachbestimmung abgebrochen: der Ort einer Kamera wurde inzwischen geändert, sonst nichts</translation>
+    </message>
+    <message>
+        <source>too little was seen by two cameras at a time yet</source>
+        <translation>noch haben zu selten zwei Kameras zugleich etwas gesehen</translation>
+    </message>
+    <message>
+        <source>no camera is known that the others could be placed by</source>
+        <translation>keine Kamera ist bekannt, nach der die anderen bestimmt werden könnten</translation>
+    </message>
+    <message>
+        <source>every camera's pose is given exactly, or it saw too little</source>
+        <translation>jede Kamera hat einen genau gegebenen Ort oder zu wenig gesehen</translation>
+    </message>
+    <message>
+        <source>the cameras are being refined already</source>
+        <translation>die Kameras werden schon nachbestimmt</translation>
+    </message>
+    <message>
+        <source>Refine</source>
+        <translation>Nachbestimmen</translation>
+    </message>
+    <message>
+        <source>Refine the places of all cameras</source>
+        <translation>Die Orte aller Kameras nachbestimmen</translation>
+    </message>
+    <message>
+        <source>Solves for all cameras together from what they saw in this flight, and for balls and focal lengths, too, where the rig file has marker_sigma_m or focal_sigma</source>
+        <translation>Bestimmt alle Kameras zusammen aus dem, was sie in diesem Flug sahen, und auch Kugeln und Brennweiten, wo die Aufbaudatei marker_sigma_m oder focal_sigma hat</translation>
     </message>
     <message>
         <source>Labelling</source>

@@ -58,6 +58,23 @@ class Fly(unittest.TestCase):
                                 "--bump", "3@8:5,0.05")
         self.assertEqual((code, report["outcome"]), (0, "landed"))
 
+    def test_balls_that_are_off_are_found_and_saved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            saved = os.path.join(folder, "found.toml")
+            off = ("fly", "--no-images", "--seed", 2, "--marker-error", 0.001, "--focal-error", 0.003)
+            code, report = run_json(*off, "--refine", 12, "--refine-markers", 0.001, "--refine-focal", 0.01,
+                                    "--save-calibration", saved)
+            self.assertEqual((code, report["outcome"]), (0, "landed"))
+            _, plain = run_json(*off)
+            self.assertEqual([camera["focal_scale"] for camera in plain["cameras"]], [1, 1, 1])
+            self.assertNotEqual(report["markers_m"], plain["markers_m"])
+            self.assertNotEqual(report["cameras"][0]["focal_scale"], 1)
+            self.assertLess(report["tracking"]["orientation_rms_deg"], plain["tracking"]["orientation_rms_deg"])
+            _, again = run_json(*off, "--calibration", saved)
+            self.assertEqual(again["markers_m"], report["markers_m"])
+            self.assertLess(again["tracking"]["orientation_rms_deg"],
+                            0.6 * plain["tracking"]["orientation_rms_deg"])
+
     def test_realtime_with_images_keeps_pace_and_drops_nothing(self):
         code, report = run_json("fly", "--realtime", "--duration", 15)
         self.assertEqual((code, report["outcome"]), (0, "landed"))
@@ -103,6 +120,9 @@ class Errors(unittest.TestCase):
         self.assert_refused(run("fly", "--duration", "3"), "too short", "cure:")
         self.assert_refused(run("fly", "--seed", "abc"))
         self.assert_refused(run("fly", "--vary", "2"))
+        self.assert_refused(run("fly", "--marker-error", "1"))
+        self.assert_refused(run("fly", "--refine-markers", "1"))
+        self.assert_refused(run("fly", "--refine-focal", "-0.1"))
         self.assert_refused(run("fly", "--no-images", "--calibrator", "kalman"), "kalman", "joint")
         self.assert_refused(run("fly", "--initial-error", "15"))
         self.assert_refused(run("loop"))

@@ -47,7 +47,21 @@ TEST(CalibrationFile, ComesBackToTheLastBit) {
                   .norm(),
               1e-15);
     EXPECT_EQ(read.cameras[i].covariance, wrote.cameras[i].covariance);
+    EXPECT_EQ(read.cameras[i].focal_scale, 1.0);
   }
+  EXPECT_TRUE(read.markers_in_body.empty());
+}
+
+TEST(CalibrationFile, BallsAndFocalLengthsThatWereCorrectedComeBackToTheLastBit) {
+  SavedCalibration wrote = example();
+  wrote.markers_in_body = {{0.1, 1.0 / 3.0, 0.0}, {-0.2, 1e-17, 0.05}, {0.0, 0.0, -1.0}};
+  wrote.cameras[1].focal_scale = 1.0 + 1.0 / 300.0;
+  const SavedCalibration read = parseCalibration(toToml(wrote), "c.toml");
+  EXPECT_EQ(read.markers_in_body, wrote.markers_in_body);
+  EXPECT_EQ(read.cameras[0].focal_scale, 1.0);
+  EXPECT_EQ(read.cameras[1].focal_scale, wrote.cameras[1].focal_scale);
+  wrote.cameras[1].focal_scale = 3.0;
+  EXPECT_THROW(parseCalibration(toToml(wrote), "c.toml"), Error);
 }
 
 TEST(CalibrationFile, MistakesAreFoundAtTheirLine) {

@@ -90,6 +90,8 @@ method = "particle-filter"
 guess_rotation_deg = 30.0
 particles = 4000
 kept_frames = 200
+marker_sigma_m = 0.001
+focal_sigma = 0.005
 [simulation.noise]
 outliers = 0.05
 [transmitter]
@@ -112,7 +114,16 @@ kind = "simulated"
   EXPECT_DOUBLE_EQ(rig.calibration.guess.rotation_rad, toRadians(30.0));
   EXPECT_EQ(rig.calibration.particle_filter.particles, 4000);
   EXPECT_EQ(rig.calibration.growing_gauss_newton.kept_frames, 200);
+  EXPECT_EQ(rig.self_calibration.marker_sigma_m, 0.001);
+  EXPECT_EQ(rig.self_calibration.focal_sigma, 0.005);
   EXPECT_EQ(rig.simulation.noise.outliers, 0.05);
+}
+
+TEST(RigFile, TheSimulatedFieldMayBeOtherThanTheRigSays) {
+  const std::string wrong = "[simulation]\nmarker_error_m = 0.002\nfocal_error = 0.003";
+  const RigConfig rig = parseRig(replaced(goodRig(), "[simulation]", wrong), "r");
+  EXPECT_EQ(rig.simulation.marker_error_m, 0.002);
+  EXPECT_EQ(rig.simulation.focal_error, 0.003);
 }
 
 TEST(RigFile, AnAlmostNormalQuaternionIsNormalised) {

@@ -26,6 +26,8 @@ TEST(FlightLoopAllocation, NoneFromTheFirstFrameToTheLanding) {
   giveFirstGuesses(rig, toRadians(15.0), 0.4, 9, true);
   rig.simulation.bumps = {{cameraId(0), 11.0, toRadians(2.0), 0.02},
                           {cameraId(2), 14.0, toRadians(2.0), 0.02}};
+  rig.self_calibration = {1e-3, 0.01};
+  rig.simulation.marker_error_m = 1e-3;
   auto clock = std::make_shared<ManualClock>();
   RigHardware hardware = openRig(rig, clock);
   FlightLoop loop(rig, loadPlan(planPath("hover")));
@@ -45,6 +47,8 @@ TEST(FlightLoopAllocation, NoneFromTheFirstFrameToTheLanding) {
     clock->set(now);
     for (auto& source : hardware.sources)
       while (source->poll(observation)) counted([&] { loop.onObservation(observation, now); });
+    if (ms == 20'000)
+      counted([&] { EXPECT_EQ(loop.orderCalibration({CalibrationOrderKind::kRefine, {}, {}, {}}), nullptr); });
     if (ms % 17 != 0) continue;
     OperatorCommands commands;
     commands.arm = commands.take_off = ms == 17 * 60;
@@ -58,6 +62,7 @@ TEST(FlightLoopAllocation, NoneFromTheFirstFrameToTheLanding) {
     to_helicopter.step(now);
   }
   EXPECT_EQ(allocated, 0);
+  EXPECT_EQ(loop.snapshot().refinement.outcome, RefinementOutcome::kCorrected);
   EXPECT_TRUE(hardware.world->verdict().has_flown);
   EXPECT_EQ(loop.snapshot().cameras[0].knocks_found, 1);
   EXPECT_EQ(loop.snapshot().cameras[2].knocks_found, 1);

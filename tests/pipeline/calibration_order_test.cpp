@@ -178,6 +178,14 @@ TEST(CalibrationOrder, ACameraThatIsKnockedEndsTheRefinement) {
   EXPECT_STREQ(flight.camera(2).calibration_method, "joint");
 }
 
+TEST(CalibrationOrder, ACalibrationOfOtherBallsIsRefused) {
+  RigConfig rig = test::shippedRig("paper", 6);
+  SavedCalibration saved;
+  saved.cameras.push_back({"1", "joint", *rig.cameras[0].camera_from_world, Matrix6d::Zero()});
+  saved.markers_in_body = {{0.1, 0.0, 0.0}, {0.0, 0.1, 0.0}, {0.0, 0.0, 0.1}};
+  EXPECT_THROW(giveCalibration(saved, rig), Error);
+}
+
 TEST(CalibrationOrder, ACalibrationOfAnotherRigIsRefused) {
   SavedCalibration saved;
   saved.cameras.push_back({"nobody", "joint", {}, Matrix6d::Zero()});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -118,6 +119,36 @@ TEST(Replay, WhatTheOperatorDecidedAboutCalibrationsIsDecidedAgain) {
   EXPECT_EQ(replay.ticks, static_cast<std::uint64_t>(kTicks));
   EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
   EXPECT_EQ(replay.missing, 0u);
+}
+
+TEST(Replay, BallsAndFocalLengthsThatWereCorrectedInFlightAreCorrectedAgain) {
+  const TemporaryFolder folder;
+  SessionSettings settings = test::hoverSettings(24);
+  settings.rig.self_calibration = {1e-3, 0.01};
+  settings.rig.simulation.marker_error_m = 1e-3;
+  settings.rig.simulation.focal_error = 0.003;
+  EngineSnapshot last;
+  {
+    Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kWait);
+    LockStep flight(settings.rig, settings.plan, &recorder);
+    for (int i = 0; i < kTicks; ++i) {
+      OperatorCommands commands;
+      commands.arm = commands.take_off = i == 60;
+      CalibrationOrder order;
+      order.kind = CalibrationOrderKind::kRefine;
+      if (i == 600) {
+        EXPECT_EQ(flight.orderCalibration(order), nullptr);
+      }
+      last = flight.tick(commands);
+    }
+  }
+  ASSERT_EQ(last.refinement.outcome, RefinementOutcome::kCorrected);
+  const Replay replay = replayed(folder / "a.mcap");
+  EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
+  EXPECT_EQ(replay.missing, 0u);
+  EXPECT_TRUE(std::ranges::equal(replay.last.markers.all(), last.markers.all()));
+  EXPECT_EQ(replay.last.cameras[0].focal_scale, last.cameras[0].focal_scale);
+  EXPECT_NE(last.cameras[0].focal_scale, 1.0);
 }
 
 TEST(Replay, CoveredCamerasAnswerWhatWouldHaveBeenKnown) {

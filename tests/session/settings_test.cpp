@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "engine/base/error.h"
 #include "engine/pipeline/first_guess.h"
 #include "engine/session/session_settings.h"
@@ -15,6 +18,15 @@ TEST(SessionSettings, WhatTheCommandLineChangedComesBackToTheLastBit) {
   rig.calibrator = "ekf";
   rig.tracker = "paper";
   rig.learn_from_own_pose = true;
+  rig.self_calibration = {1e-3, 0.01};
+  rig.simulation.marker_error_m = 2e-3;
+  rig.simulation.focal_error = 0.003;
+  const MarkerLayout told = rig.markers_in_body;
+  const CameraModel lens = rig.cameras[1].model;
+  std::vector<Eigen::Vector3d> balls(told.all().begin(), told.all().end());
+  balls[2].x() += 1.0 / 3000.0;
+  rig.replaceMarkers(balls);
+  rig.replaceFocalLengths(1, 1.0 + 1.0 / 300.0);
   rig.simulation.noise.outliers = 0.1;
   rig.simulation.occlusions.push_back({cameraId(1), 13.0, 25.1});
   rig.simulation.bumps.push_back({cameraId(2), 10.0, 0.1, 0.05});
@@ -31,6 +43,16 @@ TEST(SessionSettings, WhatTheCommandLineChangedComesBackToTheLastBit) {
   EXPECT_EQ(back.rig.simulation.seed, 77u);
   EXPECT_FALSE(back.rig.simulation.images);
   EXPECT_EQ(back.rig.simulation.noise.outliers, 0.1);
+  EXPECT_EQ(back.rig.self_calibration.marker_sigma_m, 1e-3);
+  EXPECT_EQ(back.rig.self_calibration.focal_sigma, 0.01);
+  EXPECT_EQ(back.rig.simulation.marker_error_m, 2e-3);
+  EXPECT_EQ(back.rig.simulation.focal_error, 0.003);
+  EXPECT_TRUE(std::ranges::equal(back.rig.markers_in_body.all(), balls));
+  ASSERT_TRUE(back.rig.simulation.markers_before.has_value()) << "the field is as the rig file has it";
+  EXPECT_TRUE(std::ranges::equal(back.rig.simulation.markers_before->all(), told.all()));
+  EXPECT_EQ(back.rig.cameras[1].model.fx(), rig.cameras[1].model.fx());
+  EXPECT_EQ(back.rig.simulation.models_before.at(1)->fx(), lens.fx());
+  EXPECT_EQ(back.rig.cameras[0].model.fx(), rig.cameras[0].model.fx());
   ASSERT_EQ(back.rig.simulation.occlusions.size(), 1u);
   EXPECT_EQ(back.rig.simulation.occlusions[0].to_s, 25.1);
   ASSERT_EQ(back.rig.simulation.bumps.size(), 1u);

@@ -186,6 +186,13 @@ TEST_F(CalibrationWindow, ACameraThatKnowsNothingIsNotAcceptedAndItIsSaidWhy) {
   EXPECT_NE(status(), CameraStatus::kCalibrated);
 }
 
+TEST_F(CalibrationWindow, ARefinementOfAllCamerasIsAskedForAndAnswered) {
+  open(calibratingRig(false));
+  ASSERT_TRUE(eventually([this] { return snapshot().tick > 0; }));
+  click(window_->calibration().refineButton());
+  EXPECT_TRUE(announced("Refinement refused: too little was seen by two cameras at a time yet"));
+}
+
 TEST_F(CalibrationWindow, PlacesAreSavedAndLoaded) {
   QTemporaryDir folder;
   const QString file = folder.filePath("places.toml");

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -16,12 +17,15 @@
 namespace helical {
 namespace {
 
+constexpr double kSamePlaceM = 1e-5;  // of a ball in two files
+
 struct RigArguments {
   std::string observations;
   std::string rig;
   std::string out;
   std::string scale;
   bool trust_stamps = false;
+  SelfCalibrationOptions self;
   bool json = false;
 };
 
@@ -65,8 +69,15 @@ nlohmann::json toJson(const RigCalibration& calibration) {
          {"late_s", c.late_s},
          {"position_sigma_m", known ? nlohmann::json(c.position_sigma_m) : nlohmann::json()},
          {"orientation_sigma_deg", known ? nlohmann::json(c.orientation_sigma_deg) : nlohmann::json()},
-         {"distance_m", c.camera_from_world ? nlohmann::json(c.distance_m) : nlohmann::json()}});
+         {"distance_m", c.camera_from_world ? nlohmann::json(c.distance_m) : nlohmann::json()},
+         {"focal_scale", c.focal_scale},
+         {"focal_sigma", c.focal_sigma}});
   }
+  nlohmann::json points = nlohmann::json::array();
+  for (const CalibratedPoint& p : calibration.points)
+    points.push_back({{"given_m", {p.given.x(), p.given.y(), p.given.z()}},
+                      {"found_m", {p.found.x(), p.found.y(), p.found.z()}},
+                      {"sigma_m", p.sigma_m}});
   return {{"verdict", nameOf(calibration.verdict)},
           {"reasons", calibration.reasons},
           {"scale", calibration.metric ? "metric" : "arbitrary"},
@@ -78,7 +89,41 @@ nlohmann::json toJson(const RigCalibration& calibration) {
           {"thinned_by", calibration.thinned_by},
           {"unmatched", calibration.unmatched},
           {"sigma_px", calibration.sigma_px},
+          {"points", std::move(points)},
           {"cameras", std::move(cameras)}};
+}
+
+void printCorrections(const RigCalibration& calibration) {
+  if (calibration.self.focal_sigma > 0.0)
+    for (const CalibratedCamera& c : calibration.cameras)
+      std::printf("focal length of camera %s: %+.3f %% (sigma %.3f %%)\n", c.label.c_str(),
+                  100.0 * (c.focal_scale - 1.0), 100.0 * c.focal_sigma);
+  double squares = 0.0, farthest = 0.0, sigma = 0.0;
+  for (const CalibratedPoint& p : calibration.points) {
+    squares += (p.found - p.given).squaredNorm();
+    farthest = std::max(farthest, (p.found - p.given).norm());
+    sigma = std::max(sigma, p.sigma_m);
+  }
+  const auto count = static_cast<double>(calibration.points.size());
+  if (!calibration.points.empty())
+    std::printf("points of the body: moved by %.3f mm rms, %.3f mm at most (largest sigma %.3f mm)\n",
+                1e3 * std::sqrt(squares / count), 1e3 * farthest, 1e3 * sigma);
+}
+
+/// What was found, as far as it is the rig's: a board's points are not.
+RigCorrections correctionsOf(const RigCalibration& calibration, const RigConfig& rig) {
+  RigCorrections corrections;
+  for (const CalibratedCamera& c : calibration.cameras)
+    if (c.focal_scale != 1.0) corrections.focal_scales.emplace_back(c.label, c.focal_scale);
+  for (const Eigen::Vector3d& ball : rig.markers_in_body.all())
+    for (const CalibratedPoint& p : calibration.points)
+      if ((p.given - ball).norm() < kSamePlaceM) {
+        corrections.markers_in_body.push_back(p.found);
+        break;
+      }
+  if (static_cast<int>(corrections.markers_in_body.size()) != rig.markers_in_body.count())
+    corrections.markers_in_body.clear();
+  return corrections;
 }
 
 void printReport(const RigCalibration& calibration) {
@@ -103,6 +148,7 @@ void printReport(const RigCalibration& calibration) {
     if (calibration.delays && c.late_s != 0.0)
       std::printf("camera %s saw %.4g s %s than its time stamps say, against the first: taken into account\n",
                   c.label.c_str(), std::abs(c.late_s), c.late_s > 0.0 ? "later" : "earlier");
+  printCorrections(calibration);
   std::printf("verdict: %s\n", nameOf(calibration.verdict));
   for (const std::string& reason : calibration.reasons) std::printf("  %s\n", reason.c_str());
 }
@@ -121,12 +167,12 @@ std::string provenance(const RigArguments& arguments, const RigCalibration& cali
   return text;
 }
 
-void writeRig(const RigArguments& arguments, const RigCalibration& calibration) {
+void writeRig(const RigArguments& arguments, const RigConfig& rig, const RigCalibration& calibration) {
   std::vector<WrittenPose> poses;
   for (const CalibratedCamera& c : calibration.cameras)
     if (c.camera_from_world && !c.given) poses.push_back({c.label, *c.camera_from_world, c.covariance});
   writeTextFile(arguments.out, rigWithPoses(readTextFile(arguments.rig, "rig file"), arguments.rig, poses,
-                                            provenance(arguments, calibration)));
+                                            provenance(arguments, calibration), correctionsOf(calibration, rig)));
 }
 
 int calibrate(const RigArguments& arguments) {
@@ -138,6 +184,7 @@ int calibrate(const RigArguments& arguments) {
   RigCalibrationOptions options;
   if (!arguments.scale.empty()) options.scale = parseScale(arguments.scale, rig);
   options.trust_stamps = arguments.trust_stamps;
+  options.self = arguments.self;
   PointRows rows;
   {
     Progress progress("Reading observations");
@@ -150,7 +197,7 @@ int calibrate(const RigArguments& arguments) {
                                [&](double done) { progress.update(done); });
   }
   const bool bad = calibration.verdict == RigVerdict::kBad;
-  if (!bad) writeRig(arguments, calibration);
+  if (!bad) writeRig(arguments, rig, calibration);
   if (arguments.json)
     std::printf("%s\n", toJson(calibration).dump(1).c_str());
   else
@@ -180,6 +227,14 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
   command->add_option("--scale", arguments->scale, "Distance of two cameras: CAM,CAM=METRES");
   command->add_flag("--trust-stamps", arguments->trust_stamps,
                     "Seek no delays between cameras: they were triggered together");
+  command
+      ->add_option("--refine-markers", arguments->self.marker_sigma_m,
+                   "METRES: the body's points are off its coordinates by about so much per axis: find them, too")
+      ->check(CLI::Range(0.0, 0.02));
+  command
+      ->add_option("--refine-focal", arguments->self.focal_sigma,
+                   "SHARE: focal lengths are off the rig's by about so much: find them, too")
+      ->check(CLI::Range(0.0, 0.1));
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout");
   command->footer(
       "Verdict: good, usable or bad, and why. A bad calibration is not written (exit code 1).\n"
@@ -188,7 +243,8 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
       "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say: how much later "
       "than "
       "the\n"
-      "first each of them saw is found from how the target moves, told, and taken into account.");
+      "first each of them saw is found from how the target moves, told, and taken into account.\n"
+      "Focal lengths that were found go into the rig file, and points that are its balls.");
   command->callback([arguments, &exit_code] { exit_code = calibrate(*arguments); });
 }
 

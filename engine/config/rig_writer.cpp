@@ -58,6 +58,20 @@ void insertLabel(toml::table& camera, const std::string& label) {
     camera.insert("id", label);
 }
 
+void scaleFocalLengths(toml::table& camera, double scale) {
+  toml::table* intrinsics = camera["intrinsics"].as_table();
+  if (intrinsics == nullptr) return;
+  for (const char* key : {"fx", "fy"})
+    if (const auto focal = (*intrinsics)[key].value<double>()) intrinsics->insert_or_assign(key, scale * *focal);
+}
+
+void moveMarkers(toml::table& root, const std::vector<Eigen::Vector3d>& markers_in_body) {
+  toml::array markers;
+  for (const Eigen::Vector3d& marker : markers_in_body) markers.push_back(numbers(marker.data(), 3));
+  if (!root.contains("helicopter")) root.insert("helicopter", toml::table());
+  root["helicopter"].as_table()->insert_or_assign("markers_m", std::move(markers));
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& file, int error) {
   const bool mistake = error == ENOENT || error == ENOTDIR || error == EISDIR;
   throw Error(mistake ? ErrorKind::kInput : ErrorKind::kSystem,
@@ -68,7 +82,7 @@ void insertLabel(toml::table& camera, const std::string& label) {
 }  // namespace
 
 std::string rigWithPoses(std::string_view toml, const std::string& name, std::span<const WrittenPose> poses,
-                         std::string_view header) {
+                         std::string_view header, const RigCorrections& corrections) {
   toml::table root;
   try {
     root = toml::parse(toml, std::string_view(name));
@@ -84,7 +98,10 @@ std::string rigWithPoses(std::string_view toml, const std::string& name, std::sp
                                      [&](const auto& p) { return p.label == labelOf(*camera); });
       if (pose != poses.end())
         camera->insert_or_assign("pose", poseTable(pose->camera_from_world, pose->covariance));
+      for (const auto& [label, scale] : corrections.focal_scales)
+        if (label == labelOf(*camera)) scaleFocalLengths(*camera, scale);
     }
+  if (!corrections.markers_in_body.empty()) moveMarkers(root, corrections.markers_in_body);
   return withComment(header, root);
 }
 

@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/geometry/camera_estimate.h"
 #include "engine/geometry/camera_model.h"
@@ -19,10 +21,16 @@ struct WrittenPose {
   std::optional<Matrix6d> covariance;
 };
 
+/// Balls and focal lengths that were found to be others than a rig file has them.
+struct RigCorrections {
+  std::vector<std::pair<std::string, double>> focal_scales;  ///< of cameras by label, over the file's
+  std::vector<Eigen::Vector3d> markers_in_body;              ///< empty: as in the file
+};
+
 /// The rig `toml` with these poses in place of its cameras' [camera.pose]; everything else stays as it is,
-/// but for comments. `header` lines become the comment at the top. `name` stands for the file in messages.
+/// but for comments, and for what `corrections` say. `header` lines become the comment at the top. `name` stands for the file in messages.
 std::string rigWithPoses(std::string_view toml, const std::string& name, std::span<const WrittenPose> poses,
-                         std::string_view header);
+                         std::string_view header, const RigCorrections& corrections = {});
 
 /// A rig of cameras that have intrinsics and, maybe, poses.
 struct WrittenCamera {

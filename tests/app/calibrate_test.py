@@ -114,6 +114,47 @@ class Rig(Calibrate):
         self.assertEqual(code, 0, report)
         self.assertEqual(report["scale"], "arbitrary")
 
+    def test_balls_and_focal_lengths_that_are_off_are_found_and_written(self):
+        told = [(0.15, 0.1, 0.0), (-0.12, 0.14, 0.02), (-0.15, -0.1, 0.0), (0.13, -0.15, 0.03), (0.0, 0.02, -0.06)]
+        draw = random.Random(5)
+        true = [[value + draw.gauss(0, 0.001) for value in ball] for ball in told]
+        rows = []
+        for k in range(240):
+            t = k / 30
+            turn, tilt, (x, y, z) = 2 * math.sin(0.7 * t), 0.6 * math.sin(1.1 * t), light(t)
+            for camera in EYES:
+                for marker, (a, b, c) in enumerate(true):
+                    b, c = math.cos(tilt) * b - math.sin(tilt) * c, math.sin(tilt) * b + math.cos(tilt) * c
+                    a, b = math.cos(turn) * a - math.sin(turn) * b, math.sin(turn) * a + math.cos(turn) * b
+                    u, v = project(camera, (x + a, y + b, z + c))
+                    rows.append((t, camera, u + draw.gauss(0, 0.2), v + draw.gauss(0, 0.2), marker, *told[marker]))
+        rows = self.write_rows(rows, "time_s,camera,u_px,v_px,marker,body_x_m,body_y_m,body_z_m")
+        rig = RIG.replace("550.0", "553.0") + "[helicopter]\nmarkers_m = " + str([list(ball) for ball in told]) + "\n"
+        _, plain = self.rig(rows, rig=rig)
+        code, report = self.rig(rows, "--refine-markers", 0.001, "--refine-focal", 0.01, rig=rig)
+        self.assertEqual(code, 0, report)
+        self.assertLess(report["sigma_px"], min(0.25, plain["sigma_px"]))
+        self.assertEqual(len(report["points"]), 5)
+        self.assertEqual(plain["points"], [])
+        with open(self.path("out.toml"), "rb") as file:
+            written = tomllib.load(file)
+        for camera, solved in zip(written["camera"], report["cameras"]):
+            self.assertAlmostEqual(camera["intrinsics"]["fx"], 553.0 * solved["focal_scale"], delta=1e-6)
+            self.assertAlmostEqual(camera["intrinsics"]["fx"], 550.0, delta=max(1.0, 4 * 550 * solved["focal_sigma"]))
+        found = written["helicopter"]["markers_m"]
+
+        def misshape(balls):
+            return sum((math.dist(balls[i], balls[j]) - math.dist(true[i], true[j])) ** 2
+                       for i in range(5) for j in range(i))
+        self.assertLess(misshape(found), 0.3 * misshape(told))
+        text = run("calibrate", "rig", "--observations", rows, "--rig", self.path("in.toml"), "--out",
+                   self.path("again.toml"), "--refine-markers", "0.001", "--refine-focal", "0.01").stdout
+        self.assertIn("focal length of camera 1:", text)
+        self.assertIn("points of the body: moved by", text)
+        self.assertEqual(run("calibrate", "rig", "--observations", self.write_rows(light_rows(3.0)), "--rig",
+                             self.path("in.toml"), "--out", self.path("light.toml"), "--refine-focal",
+                             "0.01").returncode, 2)
+
     def test_bad_input(self):
         good = list(light_rows(3.0))
         header = "time_s,camera,u_px,v_px\n"

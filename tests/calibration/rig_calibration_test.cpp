@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/random.h"
 #include "engine/geometry/camera_perturbation.h"
 #include "tests/calibration/rig_recording.h"
 
@@ -40,6 +43,117 @@ TEST(RigCalibration, BoardSetsPosesAndScale) {
   EXPECT_LT(errors.degrees, 0.1);
   EXPECT_LT(errors.metres, 0.005);
   EXPECT_NEAR(solved.sigma_px, 0.5, 0.03);
+}
+
+/// As a user has them: points and focal lengths off the truth by these sigmas.
+struct WrongBoard {
+  MadeRecording made;
+  std::vector<RigCamera> cameras;
+  PointRows rows;
+  std::vector<double> focal_errors;
+
+  WrongBoard(double point_sigma_m, double focal_sigma, std::uint64_t seed) {
+    RecordingOptions recording;
+    recording.duration_s = 4.0;
+    made = wavedBoard(recording, seed);
+    cameras = made.unposed();
+    rows = made.rows;
+    Random random(seed + 500);
+    for (RigCamera& camera : cameras) {
+      focal_errors.push_back(focal_sigma * random.normal());
+      camera.model = camera.model.withFocalScale(1.0 / (1.0 + focal_errors.back()));
+    }
+    std::map<std::pair<double, double>, Eigen::Vector3d> shifts;
+    for (Eigen::Vector3d& point : rows.in_body) {
+      const auto [shift, is_new] = shifts.try_emplace({point.x(), point.y()});
+      if (is_new) shift->second = point_sigma_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      point += shift->second;
+    }
+  }
+};
+
+TEST(RigCalibration, PointsOfTheBodyThatAreOffAreFound) {
+  const WrongBoard board(1e-3, 0.0, 21);
+  RigCalibrationOptions options;
+  options.self.marker_sigma_m = 1e-3;
+  const RigCalibration plain = solve(board.cameras, board.rows), refined = solve(board.cameras, board.rows, options);
+  EXPECT_EQ(refined.verdict, RigVerdict::kGood) << reasonsOf(refined);
+  EXPECT_LT(refined.sigma_px, plain.sigma_px);
+  EXPECT_NEAR(refined.sigma_px, 0.5, 0.03);
+  ASSERT_EQ(refined.points.size(), 24u);
+  EXPECT_TRUE(plain.points.empty());
+  // Distances are what images tell: the body's frame is the user's.
+  double before = 0.0, after = 0.0;
+  for (std::size_t a = 0; a < 24; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const auto truth = [](const CalibratedPoint& p) {
+        return Eigen::Vector3d(0.06 * std::round(p.given.x() / 0.06), 0.06 * std::round(p.given.y() / 0.06), 0.0);
+      };
+      const double apart = (truth(refined.points[a]) - truth(refined.points[b])).norm();
+      before += std::pow((refined.points[a].given - refined.points[b].given).norm() - apart, 2);
+      after += std::pow((refined.points[a].found - refined.points[b].found).norm() - apart, 2);
+    }
+  // How large the whole is, nothing but the user's own coordinates tells.
+  EXPECT_LT(after, 0.2 * before);
+  EXPECT_LT(refined.points[0].sigma_m, 1e-3);
+  EXPECT_GT(refined.points[0].sigma_m, 0.0);
+  const double error = poseErrors(board.made.cameras, posesOf(refined), false).metres;
+  EXPECT_LT(error, poseErrors(board.made.cameras, posesOf(plain), false).metres);
+  EXPECT_GT(refined.cameras[1].position_sigma_m, plain.cameras[1].position_sigma_m) << "it knows less of the scale";
+  for (const CalibratedCamera& c : refined.cameras) EXPECT_EQ(c.focal_scale, 1.0);
+}
+
+TEST(RigCalibration, FocalLengthsThatAreOffAreFound) {
+  const WrongBoard board(0.0, 0.01, 22);
+  RigCalibrationOptions options;
+  options.self.focal_sigma = 0.01;
+  const RigCalibration plain = solve(board.cameras, board.rows), refined = solve(board.cameras, board.rows, options);
+  EXPECT_EQ(refined.verdict, RigVerdict::kGood) << reasonsOf(refined);
+  EXPECT_NEAR(refined.sigma_px, 0.5, 0.03);
+  double squares = 0.0;
+  for (std::size_t c = 0; c < board.cameras.size(); ++c) {
+    const double off = refined.cameras[c].focal_scale - (1.0 + board.focal_errors[c]);
+    EXPECT_LT(std::abs(off), 4.0 * refined.cameras[c].focal_sigma);
+    EXPECT_LT(refined.cameras[c].focal_sigma, 0.003);
+    squares += off * off;
+  }
+  EXPECT_LT(std::sqrt(squares / 4.0), 0.002);
+  EXPECT_LT(poseErrors(board.made.cameras, posesOf(refined), false).metres,
+            0.5 * poseErrors(board.made.cameras, posesOf(plain), false).metres);
+  EXPECT_TRUE(refined.points.empty());
+}
+
+TEST(RigCalibration, WhereNothingIsOffRefiningSpoilsLittle) {
+  const WrongBoard board(0.0, 0.0, 23);
+  RigCalibrationOptions options;
+  options.self = {1e-4, 0.002};
+  const RigCalibration plain = solve(board.cameras, board.rows), refined = solve(board.cameras, board.rows, options);
+  EXPECT_EQ(refined.verdict, plain.verdict) << reasonsOf(refined);
+  EXPECT_LT(poseErrors(board.made.cameras, posesOf(refined), false).metres, 0.01);
+  for (const CalibratedCamera& c : refined.cameras) EXPECT_NEAR(c.focal_scale, 1.0, 4.0 * c.focal_sigma);
+}
+
+TEST(RigCalibration, WhatIsFartherOffThanItMayBeIsSaid) {
+  const WrongBoard board(0.0, 0.03, 24);
+  RigCalibrationOptions options;
+  options.self.focal_sigma = 0.002;
+  const RigCalibration refined = solve(board.cameras, board.rows, options);
+  EXPECT_NE(refined.verdict, RigVerdict::kGood);
+  EXPECT_NE(reasonsOf(refined).find("the focal length of camera"), std::string::npos) << reasonsOf(refined);
+}
+
+TEST(RigCalibration, RefiningNeedsABody) {
+  RigCalibrationOptions options;
+  options.self.focal_sigma = 0.01;
+  const MadeRecording light = wavedLight({}, 25);
+  EXPECT_THROW(solve(light.unposed(), light.rows, options), Error);
+  options.self = {1e-3, 0.0};
+  RecordingOptions recording;
+  recording.duration_s = 4.0;
+  MadeRecording board = wavedBoard(recording, 25);
+  Random random(25);
+  for (Eigen::Vector3d& point : board.rows.in_body) point.z() = 1e-6 * random.normal();
+  EXPECT_THROW(solve(board.unposed(), board.rows, options), Error) << "every row has a point of its own";
 }
 
 TEST(RigCalibration, NamedMarkersGiveShapeButNoScale) {

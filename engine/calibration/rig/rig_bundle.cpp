@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kScaleWeightPx = 100.0;
 constexpr double kUnseenPx = 1000.0;  // stands for a point which the camera model cannot project
+constexpr double kGivenFocal = 1.0;   // a scale
 using Block = std::array<double, 7>;  // quaternion x y z w, translation
 
 RigidTransform toTransform(const double* block) {
@@ -68,6 +69,68 @@ class BodyManifold final : public PoseManifold {
     d.tail<3>() = to.translation - from.translation;
     return true;
   }
+};
+
+/// Predicted less seen pixel of a body's point under a focal length that is the camera's times a scale. Parameters:
+/// camera, the body's pose, the point in the body, the scale.
+class FreeBodyCost final : public ceres::SizedCostFunction<2, 7, 7, 3, 1> {
+ public:
+  FreeBodyCost(const CameraModel& camera, const Eigen::Vector2d& pixel) : camera_(camera), seen_(pixel) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const RigidTransform camera_from_world = toTransform(parameters[0]), world_from_body = toTransform(parameters[1]);
+    const Eigen::Vector3d arm = world_from_body.rotation * Eigen::Map<const Eigen::Vector3d>(parameters[2]);
+    const Eigen::Vector3d point = arm + world_from_body.translation;
+    const double scale = *parameters[3];
+    Eigen::Matrix<double, 2, 3> d_pixel;
+    const auto pixel = camera_.project(camera_from_world * point, &d_pixel);
+    Eigen::Vector2d from_centre = Eigen::Vector2d::Zero();
+    if (pixel) from_centre = *pixel - Eigen::Vector2d(camera_.cx(), camera_.cy());
+    Eigen::Map<Eigen::Vector2d>{residuals} =
+        pixel ? (*pixel + (scale - 1.0) * from_centre - seen_).eval() : Eigen::Vector2d::Constant(kUnseenPx);
+    if (jacobians == nullptr) return true;
+    const SightingDerivatives d =
+        sightingDerivatives(camera_from_world, point, arm, pixel ? (scale * d_pixel).eval() : kNoSlope);
+    put<6, 7>(d.camera, jacobians[0]);
+    put<6, 7>(d.body, jacobians[1]);
+    put<3, 3>(d.point * world_from_body.rotation.toRotationMatrix(), jacobians[2]);
+    if (jacobians[3] != nullptr) Eigen::Map<Eigen::Vector2d>{jacobians[3]} = from_centre;
+    return true;
+  }
+
+ private:
+  static inline const Eigen::Matrix<double, 2, 3> kNoSlope = Eigen::Matrix<double, 2, 3>::Zero();
+
+  template <int kUsed, int kSize>
+  static void put(const Eigen::Matrix<double, 2, kUsed>& values, double* jacobian) {
+    if (jacobian == nullptr) return;
+    Eigen::Map<Eigen::Matrix<double, 2, kSize, Eigen::RowMajor>> out(jacobian);
+    out.setZero();
+    out.template leftCols<kUsed>() = values;
+  }
+
+  const CameraModel& camera_;
+  Eigen::Vector2d seen_;
+};
+
+/// Holds numbers near what was given.
+template <int kSize>
+class PriorCost final : public ceres::SizedCostFunction<kSize, kSize> {
+ public:
+  PriorCost(const double* given, double weight) : given_(given), weight_(weight) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    using Vector = Eigen::Matrix<double, kSize, 1>;
+    Eigen::Map<Vector>{residuals} = weight_ * (Eigen::Map<const Vector>(parameters[0]) - given_);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Matrix<double, kSize, kSize>>{jacobians[0]} =
+        weight_ * Eigen::Matrix<double, kSize, kSize>::Identity();
+    return true;
+  }
+
+ private:
+  Eigen::Map<const Eigen::Matrix<double, kSize, 1>> given_;
+  double weight_;
 };
 
 /// Predicted less seen pixel, where it was when the table says. Parameters: camera, the point or the body's
@@ -186,7 +249,12 @@ class Bundle {
         late_blocks_(cameras.size(), 0.0),
         ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
     if (options.robust_scale_px > 0.0) loss_ = std::make_unique<ceres::CauchyLoss>(options.robust_scale_px);
-    for (const Sighting& s : table.sightings) addSighting(cameras, s);
+    if (options.free_body != nullptr) {
+      points_ = options.free_body->points;
+      focal_scales_ = options.free_body->focal_scales;
+    }
+    for (std::size_t row = 0; row < table.sightings.size(); ++row) addSighting(cameras, row);
+    if (options.free_body != nullptr) holdNearGiven();
     if (options_.late_s != nullptr) takeBackAveraging();
     holdGauge();
   }
@@ -207,7 +275,8 @@ class Bundle {
   }
 
  private:
-  void addSighting(std::span<const RigCamera> cameras, const Sighting& s) {
+  void addSighting(std::span<const RigCamera> cameras, std::size_t row) {
+    const Sighting& s = table_.sightings[row];
     const auto c = static_cast<std::size_t>(s.camera), i = static_cast<std::size_t>(s.item);
     const bool known = body_ ? state_.world_from_body[i].has_value() : state_.points[i].has_value();
     if (!s.inlier || !known || !state_.camera_from_world[c]) return;
@@ -229,6 +298,12 @@ class Bundle {
       problem_.AddParameterBlock(item, body_ ? 7 : 3, body_ ? &body_manifold_ : nullptr);
       ordering_->AddElementToGroup(item, 0);
       if (options_.only_cameras) problem_.SetParameterBlockConstant(item);
+    }
+    if (const FreeBody* body = options_.free_body) {
+      double* point = points_[static_cast<std::size_t>(body->point[row])].data();
+      auto* cost = new FreeBodyCost(body->given_cameras[c].model, s.pixel);
+      problem_.AddResidualBlock(cost, loss_.get(), camera, item, point, &focal_scales_[c]);
+      return;
     }
     ceres::CostFunction* cost = nullptr;
     if (body_)
@@ -254,6 +329,24 @@ class Bundle {
       if (problem_.HasParameterBlock(&late_blocks_[c]))
         problem_.AddResidualBlock(new AveragingCost(table_, c, share * residuals[c], options_.sigma_px),
                                   nullptr, &late_blocks_[c]);
+  }
+
+  /// A block without a sigma stays where it is.
+  template <int kSize>
+  void holdNear(double* block, const double* given, double sigma) {
+    if (!problem_.HasParameterBlock(block)) return;
+    ordering_->AddElementToGroup(block, 1);
+    if (sigma > 0.0)
+      problem_.AddResidualBlock(new PriorCost<kSize>(given, options_.free_body->sigma_px / sigma), nullptr, block);
+    else
+      problem_.SetParameterBlockConstant(block);
+  }
+
+  void holdNearGiven() {
+    const FreeBody& body = *options_.free_body;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      holdNear<3>(points_[i].data(), body.given[i].data(), body.sigmas.marker_sigma_m);
+    for (double& scale : focal_scales_) holdNear<1>(&scale, &kGivenFocal, body.sigmas.focal_sigma);
   }
 
   void holdGauge() {
@@ -286,6 +379,10 @@ class Bundle {
   }
 
   void takeOver() {
+    if (options_.free_body != nullptr) {
+      options_.free_body->points = points_;
+      options_.free_body->focal_scales = focal_scales_;
+    }
     if (options_.late_s != nullptr) *options_.late_s = late_blocks_;
     for (std::size_t c = 0; c < camera_blocks_.size(); ++c)
       if (problem_.HasParameterBlock(camera_blocks_[c].data()) && !state_.fixed[c])
@@ -316,6 +413,8 @@ class Bundle {
   std::unique_ptr<ceres::LossFunction> loss_;
   std::vector<Block> camera_blocks_, item_blocks_;
   std::vector<double> late_blocks_;
+  std::vector<Eigen::Vector3d> points_;  ///< of a free body
+  std::vector<double> focal_scales_;     ///< likewise
   ceres::Problem problem_{problemOptions()};
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
 };

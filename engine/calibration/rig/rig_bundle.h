@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "engine/calibration/rig/free_body.h"
 #include "engine/calibration/rig/rig_state.h"
 
 namespace helical {
@@ -14,6 +15,7 @@ struct BundleOptions {
   /// pixels of standard deviation `sigma_px`. That of the camera whose pose holds the world is zero.
   std::vector<double>* late_s = nullptr;
   double sigma_px = 0.0;
+  FreeBody* free_body = nullptr;  ///< is solved for, too
 };
 
 /// Bundle adjustment over the sightings that are inliers: cameras that are not fixed, and the points or body

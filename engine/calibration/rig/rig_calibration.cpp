@@ -9,6 +9,7 @@
 #include "engine/calibration/rig/camera_delays.h"
 #include "engine/calibration/rig/chain_bodies.h"
 #include "engine/calibration/rig/chain_points.h"
+#include "engine/calibration/rig/free_body.h"
 #include "engine/calibration/rig/point_structure.h"
 #include "engine/calibration/rig/rig_bundle.h"
 #include "engine/calibration/rig/rig_covariance.h"
@@ -35,7 +36,9 @@ constexpr double kSettledPeriods = 1e-3;  // a delay that changes by less has se
 constexpr double kInterpolationFlatters = 1.2;
 
 struct Solution {
+  std::vector<RigCamera> cameras;
   SightingTable table;
+  std::optional<FreeBody> body;  // if it is solved for
   RigState state;
   double sigma_px = 0.0;
   double explained = 0.0;  // share of sightings
@@ -79,15 +82,22 @@ void gate(Solution& s, std::span<const RigCamera> cameras, double tolerance_px) 
 }
 
 /// Gate and bundle in turn until both have settled; plain least squares at the end.
-void refine(Solution& s, std::span<const RigCamera> cameras) {
+void refine(Solution& s) {
   for (int round = 0; round < kGateRounds; ++round) {
-    const double sigma = sightingSigma(s.state, cameras, s.table);
-    gate(s, cameras, kWideGateSigmas * sigma);
-    if (rejectedShare(s) > kFewBeyond) gate(s, cameras, kGateSigmas * sigma);
+    const double sigma = sightingSigma(s.state, s.cameras, s.table);
+    gate(s, s.cameras, kWideGateSigmas * sigma);
+    if (rejectedShare(s) > kFewBeyond) gate(s, s.cameras, kGateSigmas * sigma);
     const bool last = round + 1 == kGateRounds;
-    adjustBundle(s.state, cameras, s.table, {last ? 0.0 : kRobustSigmas * sigma, 100, false});
+    BundleOptions options;
+    options.robust_scale_px = last ? 0.0 : kRobustSigmas * sigma;
+    if (s.body) {
+      s.body->sigma_px = sigma;
+      options.free_body = &*s.body;
+    }
+    adjustBundle(s.state, s.body ? s.body->given_cameras : s.cameras, s.table, options);
+    if (s.body) takeOver(*s.body, s.table, s.cameras);
   }
-  s.sigma_px = sightingSigma(s.state, cameras, s.table);
+  s.sigma_px = sightingSigma(s.state, s.cameras, s.table);
   const auto inliers = std::count_if(s.table.sightings.begin(), s.table.sightings.end(),
                                      [](const auto& k) { return k.inlier; });
   s.explained =
@@ -128,7 +138,7 @@ void findDelays(Solution& s, std::span<const RigCamera> cameras) {
     });
     if (settled) break;
   }
-  refine(timed, cameras);
+  refine(timed);
   const auto [without, with] = commonResiduals(s, timed, cameras);
   if (timed.explained >= s.explained - kFewBeyond && delaysAreReal(without, with, cameras.size()))
     s = std::move(timed);
@@ -137,11 +147,12 @@ void findDelays(Solution& s, std::span<const RigCamera> cameras) {
 Solution solveFreely(SightingTable table, std::span<const RigCamera> cameras,
                      const RigCalibrationOptions& options, const ProgressCallback& progress) {
   Solution s;
+  s.cameras.assign(cameras.begin(), cameras.end());
   s.table = std::move(table);
   const double tolerance = roughTolerance(cameras);
   s.state = s.table.kind == TargetKind::kBody ? chainBodies(cameras, s.table, tolerance, progress)
                                               : chainPoints(cameras, s.table, tolerance, progress);
-  refine(s, cameras);
+  refine(s);
   if (!options.trust_stamps) findDelays(s, cameras);
   return s;
 }
@@ -214,6 +225,18 @@ CalibratedCamera reportCamera(const Solution& s, std::span<const RigCamera> came
   return c;
 }
 
+void reportBody(const FreeBody& body, const RigCovariance& covariance, RigCalibration& result) {
+  result.self = body.sigmas;
+  const bool known = !covariance.focal_sigmas.empty();
+  for (std::size_t c = 0; c < result.cameras.size(); ++c) {
+    result.cameras[c].focal_scale = body.focal_scales[c];
+    if (known) result.cameras[c].focal_sigma = covariance.focal_sigmas[c];
+  }
+  if (!(body.sigmas.marker_sigma_m > 0.0)) return;
+  for (std::size_t i = 0; i < body.points.size(); ++i)
+    result.points.push_back({body.given[i], body.points[i], known ? covariance.point_sigmas_m[i] : 0.0});
+}
+
 /// Without a measured scale: the first solved camera and the one farthest from it, whose distance is the
 /// unit.
 std::optional<KnownDistance> unitDistance(const RigState& state) {
@@ -263,7 +286,11 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
   const GivenPoseError off = alignToGiven(s.state, cameras, body, options.scale);
   if (given > 0) {
     fixGiven(s.state, cameras);
-    refine(s, cameras);
+    refine(s);
+  }
+  if (options.self.any()) {
+    s.body = freeBody(s.table, cameras, options.self, file);
+    refine(s);
   }
   if (options.scale) alignToGiven(s.state, cameras, false, options.scale);
   result.world =
@@ -276,18 +303,20 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
   result.delays = !s.table.late_s.empty();
   const bool scale_is_measured = body || given > 1;
   const RigCovariance covariance =
-      rigCovariance(s.state, cameras, s.table,
+      rigCovariance(s.state, s.cameras, s.table,
                     scale_is_measured ? std::nullopt
                     : options.scale && s.state.camera_from_world[options.scale->a] &&
                             s.state.camera_from_world[options.scale->b]
                         ? options.scale
-                        : unitDistance(s.state));
+                        : unitDistance(s.state),
+                    s.body ? &*s.body : nullptr);
   result.sigma_px = covariance.sigma_px;
   double farthest = 0.0;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
-    result.cameras.push_back(reportCamera(s, cameras, c, covariance.cameras[c]));
+    result.cameras.push_back(reportCamera(s, s.cameras, c, covariance.cameras[c]));
     farthest = std::max(farthest, result.cameras.back().distance_m);
   }
+  if (s.body) reportBody(*s.body, covariance, result);
   result.given_off_deg = off.degrees;
   result.given_off_share = farthest > 0.0 ? off.metres / farthest : 0.0;
   judge(result, cameras);

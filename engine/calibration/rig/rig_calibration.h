@@ -8,6 +8,7 @@
 #include "engine/calibration/rig/point_rows.h"
 #include "engine/calibration/rig/rig_camera.h"
 #include "engine/calibration/rig/sightings.h"
+#include "engine/calibration/self_calibration_options.h"
 #include "engine/geometry/camera_estimate.h"
 
 namespace helical {
@@ -22,6 +23,7 @@ struct RigCalibrationOptions {
   std::optional<KnownDistance> scale;
   bool trust_stamps =
       false;  ///< cameras were triggered together, or stamps tell of exposures: no delay is sought
+  SelfCalibrationOptions self;  ///< of a body's points and the focal lengths
 };
 
 enum class RigVerdict { kGood, kUsable, kBad };
@@ -40,6 +42,14 @@ struct CalibratedCamera {
   double distance_m = 0.0;  ///< median, to what it saw
   int image_parts = 0;      ///< of 16 parts of the image, those with inliers
   double late_s = 0.0;      ///< it saw so much later than its time stamps say, against the first one
+  double focal_scale = 1.0;  ///< over the given focal lengths
+  double focal_sigma = 0.0;  ///< of that; 0: it is given
+};
+
+/// A point of the target's body, where points are solved for.
+struct CalibratedPoint {
+  Eigen::Vector3d given, found;
+  double sigma_m = 0.0;  ///< largest axis
 };
 
 struct RigCalibration {
@@ -57,11 +67,15 @@ struct RigCalibration {
   bool delays = false;           ///< cameras were not exposed together: their `late_s` is taken off
   double given_off_deg = 0.0;    ///< how far given poses and the recording disagree
   double given_off_share = 0.0;  ///< the same of places, over the distance to what was seen
+  SelfCalibrationOptions self;   ///< what was solved for beside poses
+  std::vector<CalibratedPoint> points;
   std::vector<CalibratedCamera> cameras;
 };
 
 /// Every pose that `cameras` leave out, from a recording. World: that of given poses, else the first camera's
-/// frame. Scale: two or more given poses, body coordinates, `options.scale`, else arbitrary. Throws
+/// frame. Scale: two or more given poses, body coordinates, `options.scale`, else arbitrary. With `options.self`
+/// a body's points and the focal lengths are solved for, too, near what was given; the world is then the same, and
+/// the body's frame and, without two given poses, its size are held by the priors alone. Throws
 /// Error(kInput) for scales that contradict each other and recordings without rows of the same time;
 /// everything else that is wrong with a recording makes the verdict bad. Repeats bit for bit.
 RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, const std::string& file,

@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/calibration/rig/sighting_derivatives.h"
 
@@ -12,25 +14,35 @@ namespace {
 
 constexpr double kSmallestEigenvalue = 1e-12;  // over the largest: below it a direction is open
 
-/// Normal equations of the cameras with each item eliminated (Schur complement).
+/// Normal equations of the cameras, and of a free body's points and focal lengths, with each item eliminated (Schur
+/// complement).
 class ReducedSystem {
  public:
-  ReducedSystem(const RigState& state, std::span<const RigCamera> cameras, const SightingTable& table)
+  ReducedSystem(const RigState& state, std::span<const RigCamera> cameras, const SightingTable& table,
+                const FreeBody* free_body)
       : state_(state),
         cameras_(cameras),
         table_(table),
+        free_body_(free_body),
         stride_(table.late_s.empty() ? 6 : 7),
-        place_(cameras.size(), -1) {
+        place_(cameras.size(), -1),
+        focal_column_(cameras.size(), -1) {
     for (std::size_t c = 0; c < cameras.size(); ++c)
       if (state.camera_from_world[c] && !state.fixed[c]) place_[c] = unknown_++;
-    information = Eigen::MatrixXd::Zero(stride_ * unknown_, stride_ * unknown_);
+    first_free_ = columns_ = stride_ * unknown_;
+    if (free_body != nullptr && free_body->sigmas.focal_sigma > 0.0)
+      for (std::size_t c = 0; c < cameras.size(); ++c)
+        if (state.camera_from_world[c]) focal_column_[c] = columns_++;
+    if (free_body != nullptr && free_body->sigmas.marker_sigma_m > 0.0) {
+      first_point_ = columns_;
+      columns_ += 3 * static_cast<int>(free_body->points.size());
+    }
+    information = Eigen::MatrixXd::Zero(columns_, columns_);
     // As in the bundle: the delay of a camera that saw nothing move is not open.
     if (stride_ > 6)
-      for (int k = 6; k < information.rows(); k += stride_)
-        information(k, k) = 1.0 / (table.period_s * table.period_s);
+      for (int k = 6; k < first_free_; k += stride_) information(k, k) = 1.0 / (table.period_s * table.period_s);
     const auto starts = itemStarts(table);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(table.items); ++i)
-      addItem(std::span(table.sightings).subspan(starts[i], starts[i + 1] - starts[i]));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(table.items); ++i) addItem(starts[i], starts[i + 1]);
   }
 
   Eigen::MatrixXd information;
@@ -40,17 +52,57 @@ class ReducedSystem {
   /// First of a camera's unknowns: its pose's six, then how late it saw if that was found. -1: none.
   int place(std::size_t camera) const { return place_[camera] < 0 ? -1 : stride_ * place_[camera]; }
   int stride() const { return stride_; }
-  int size() const { return stride_ * unknown_; }
+  int size() const { return columns_; }
+  /// Of those that have no prior.
+  int sizeOfCameras() const { return first_free_; }
+  int focalColumn(std::size_t camera) const { return focal_column_[camera]; }
+  int pointColumn(std::size_t point) const {
+    return first_point_ < 0 ? -1 : first_point_ + 3 * static_cast<int>(point);
+  }
+
+  void addPriors(double sigma_px) {
+    for (int column = first_free_; column < columns_; ++column) {
+      const bool point = first_point_ >= 0 && column >= first_point_;
+      const double sigma = point ? free_body_->sigmas.marker_sigma_m : free_body_->sigmas.focal_sigma;
+      information(column, column) += sigma_px * sigma_px / (sigma * sigma);
+    }
+  }
 
  private:
-  void addItem(std::span<const Sighting> sightings) {
+  /// Derivatives of a pixel by the unknowns from `column` on.
+  struct Part {
+    int column;
+    Eigen::MatrixXd derivatives;
+  };
+
+  std::vector<Part> partsOf(std::size_t row, const SightingDerivatives& d, const Eigen::Vector2d& from_centre) const {
+    const Sighting& s = table_.sightings[row];
+    const auto camera = static_cast<std::size_t>(s.camera);
+    std::vector<Part> parts;
+    if (place_[camera] >= 0) {
+      parts.push_back({stride_ * place_[camera], Eigen::MatrixXd(2, stride_)});
+      parts.back().derivatives.leftCols<6>() = d.camera;
+      if (stride_ > 6) parts.back().derivatives.col(6) = s.motion.velocity;
+    }
+    if (focal_column_[camera] >= 0) parts.push_back({focal_column_[camera], from_centre});
+    if (first_point_ >= 0) {
+      const auto point = static_cast<std::size_t>(free_body_->point[row]);
+      const Eigen::Matrix3d rotation =
+          state_.world_from_body[static_cast<std::size_t>(s.item)]->rotation.toRotationMatrix();
+      parts.push_back({pointColumn(point), d.point * rotation});
+    }
+    return parts;
+  }
+
+  void addItem(std::size_t first, std::size_t end) {
     const bool body = table_.kind == TargetKind::kBody;
     const Eigen::Index size = body ? 6 : 3;
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(stride_ * unknown_, size);
-    std::vector<int> touched;
+    Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(columns_, size);
+    std::map<int, Eigen::Index> touched;  // first column and width of parts
     long rows = 0;
-    for (const Sighting& s : sightings) {
+    for (std::size_t row = first; row < end; ++row) {
+      const Sighting& s = table_.sightings[row];
       const auto camera = static_cast<std::size_t>(s.camera);
       const auto residual = s.inlier ? sightingResidual(state_, cameras_, table_, s) : std::nullopt;
       if (!residual) continue;
@@ -62,36 +114,39 @@ class ReducedSystem {
           body ? (state_.world_from_body[static_cast<std::size_t>(s.item)]->rotation * s.in_body).eval()
                : Eigen::Vector3d::Zero().eval();
       Eigen::Matrix<double, 2, 3> d_pixel;
-      cameras_[camera].model.project(pose * point, &d_pixel);
+      const CameraModel& model = cameras_[camera].model;
+      const Eigen::Vector2d pixel = model.project(pose * point, &d_pixel).value_or(s.pixel);
       const SightingDerivatives d = sightingDerivatives(pose, point, arm, d_pixel);
       const Eigen::MatrixXd item = body ? Eigen::MatrixXd(d.body) : Eigen::MatrixXd(d.point);
       own += item.transpose() * item;
-      const int k = place_[camera];
-      if (k < 0) continue;
-      Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 7> own_camera(2, stride_);
-      own_camera.leftCols<6>() = d.camera;
-      if (stride_ > 6) own_camera.col(6) = s.motion.velocity;
-      information.block(stride_ * k, stride_ * k, stride_, stride_) += own_camera.transpose() * own_camera;
-      mixed.middleRows(stride_ * k, stride_) += own_camera.transpose() * item;
-      if (touched.empty() || touched.back() != k) touched.push_back(k);
+      // A scale of what is there already: by as little as it moves, that is the same.
+      const std::vector<Part> parts = partsOf(row, d, pixel - Eigen::Vector2d(model.cx(), model.cy()));
+      for (const Part& a : parts) {
+        mixed.middleRows(a.column, a.derivatives.cols()) += a.derivatives.transpose() * item;
+        touched[a.column] = a.derivatives.cols();
+        for (const Part& b : parts)
+          information.block(a.column, b.column, a.derivatives.cols(), b.derivatives.cols()) +=
+              a.derivatives.transpose() * b.derivatives;
+      }
     }
     if (rows == 0) return;
     freedom += rows - size;
     // Few points leave a body's pose open; then its own information is singular and they tell nothing.
     const Eigen::MatrixXd inverse = own.completeOrthogonalDecomposition().pseudoInverse();
-    for (const int a : touched)
-      for (const int b : touched)
-        information.block(stride_ * a, stride_ * b, stride_, stride_) -=
-            mixed.middleRows(stride_ * a, stride_) * inverse *
-            mixed.middleRows(stride_ * b, stride_).transpose();
+    for (const auto& [a, a_size] : touched) {
+      const Eigen::MatrixXd weighed = mixed.middleRows(a, a_size) * inverse;
+      for (const auto& [b, b_size] : touched)
+        information.block(a, b, a_size, b_size) -= weighed * mixed.middleRows(b, b_size).transpose();
+    }
   }
 
   const RigState& state_;
   std::span<const RigCamera> cameras_;
   const SightingTable& table_;
+  const FreeBody* free_body_;
   int stride_;
-  std::vector<int> place_;
-  int unknown_ = 0;
+  std::vector<int> place_, focal_column_;
+  int unknown_ = 0, first_free_ = 0, columns_ = 0, first_point_ = -1;
 };
 
 /// Rows of what the gauge holds: all of the first camera's unknowns, and the distance of two cameras.
@@ -119,16 +174,18 @@ Eigen::MatrixXd gauge(const ReducedSystem& system, const RigState& state,
 }  // namespace
 
 RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> cameras,
-                            const SightingTable& table, const std::optional<KnownDistance>& distance) {
+                            const SightingTable& table, const std::optional<KnownDistance>& distance,
+                            const FreeBody* free_body) {
   RigCovariance result;
   result.cameras.resize(cameras.size());
-  const ReducedSystem system(state, cameras, table);
+  ReducedSystem system(state, cameras, table, free_body);
   const Eigen::Index size = system.size();
   const Eigen::MatrixXd held = size > 0 ? gauge(system, state, distance) : Eigen::MatrixXd();
-  const double freedom = static_cast<double>(system.freedom - size + held.rows());
+  const double freedom = static_cast<double>(system.freedom - system.sizeOfCameras() + held.rows());
   if (freedom <= 0.0) return result;
   result.sigma_px = std::sqrt(system.squares / freedom);
   if (size == 0) return result;
+  system.addPriors(result.sigma_px);
   // The directions that the gauge leaves free.
   Eigen::MatrixXd free_directions = Eigen::MatrixXd::Identity(size, size);
   if (held.rows() > 0) {
@@ -148,6 +205,20 @@ RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> ca
       const Matrix6d block = covariance.block<6, 6>(k, k);
       result.cameras[c] = 0.5 * (block + block.transpose());
     }
+  if (free_body == nullptr) return result;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const int column = system.focalColumn(c);
+    result.focal_sigmas.push_back(column < 0 ? 0.0 : std::sqrt(covariance(column, column)));
+  }
+  for (std::size_t i = 0; i < free_body->points.size(); ++i) {
+    const int column = system.pointColumn(i);
+    double variance = 0.0;
+    if (column >= 0) {
+      const Eigen::Matrix3d block = covariance.block<3, 3>(column, column);
+      variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues()[2];
+    }
+    result.point_sigmas_m.push_back(std::sqrt(std::max(0.0, variance)));
+  }
   return result;
 }
 

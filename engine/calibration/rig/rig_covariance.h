@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/calibration/rig/free_body.h"
 #include "engine/calibration/rig/rig_calibration.h"
 #include "engine/calibration/rig/rig_state.h"
 
@@ -12,13 +13,17 @@ namespace helical {
 /// Covariance of each solved camera's perturbation (CameraEstimate's), the points or body poses marginalised,
 /// from the inliers and the scatter of their residuals. Fixed cameras have none. Without fixed cameras the
 /// first solved one is the frame and exact; `distance` (of whichever two cameras) is exact, too, where the
-/// scale is not measured. Empty where the recording leaves a camera open.
+/// scale is not measured. Empty where the recording leaves a camera open. With a free body its points and the focal
+/// lengths are unknowns, too, as far as their priors let them.
 struct RigCovariance {
   std::vector<std::optional<Matrix6d>> cameras;
   double sigma_px = 0.0;  ///< per axis, by the sum of squares
+  std::vector<double> focal_sigmas;    ///< of each camera's scale; 0 where it is given; empty without a free body
+  std::vector<double> point_sigmas_m;  ///< of each of its points, largest axis; likewise
 };
 
 RigCovariance rigCovariance(const RigState& state, std::span<const RigCamera> cameras,
-                            const SightingTable& table, const std::optional<KnownDistance>& distance);
+                            const SightingTable& table, const std::optional<KnownDistance>& distance,
+                            const FreeBody* free_body = nullptr);
 
 }  // namespace helical

@@ -1,6 +1,7 @@
 #include "engine/calibration/rig/rig_verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace helical {
@@ -13,6 +14,7 @@ constexpr double kGoodPlace = 0.005, kUsablePlace = 0.03;
 constexpr double kGoodRejected = 0.15, kUsableRejected = 0.5;
 constexpr long kGoodObservations = 60, kUsableObservations = 20;
 constexpr int kGoodParts = 4;  // of 16
+constexpr double kFarSigmas = 4.0;  // of a prior
 constexpr double kGoodGivenDeg = 0.5, kUsableGivenDeg = 2.0;
 constexpr double kGoodGivenShare = 0.01, kUsableGivenShare = 0.05;
 
@@ -42,6 +44,21 @@ class Judge {
  private:
   RigCalibration& calibration_;
 };
+
+/// Where something is this far off, its prior was too narrow, or it makes up for something else that is wrong.
+void judgeSelf(Judge& judge, const RigCalibration& calibration) {
+  for (const CalibratedCamera& c : calibration.cameras)
+    if (std::abs(c.focal_scale - 1.0) > kFarSigmas * calibration.self.focal_sigma && c.focal_scale != 1.0)
+      judge.reasonFor(RigVerdict::kUsable, "the focal length of camera " + c.label + " came out " +
+                                            number(100.0 * (c.focal_scale - 1.0), 2) +
+                                            " % off, more than --refine-focal expects: calibrate its intrinsics");
+  double farthest = 0.0;
+  for (const CalibratedPoint& p : calibration.points)
+    farthest = std::max(farthest, (p.found - p.given).cwiseAbs().maxCoeff());
+  if (!calibration.points.empty() && farthest > kFarSigmas * calibration.self.marker_sigma_m)
+    judge.reasonFor(RigVerdict::kUsable, "a point of the body came out " + number(1e3 * farthest, 1) +
+                                          " mm off, more than --refine-markers expects: see to the body coordinates");
+}
 
 void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camera, bool metric) {
   const std::string who = "camera " + c.label;
@@ -87,6 +104,7 @@ void judge(RigCalibration& calibration, std::span<const RigCamera> cameras) {
   Judge judge(calibration);
   for (std::size_t i = 0; i < cameras.size(); ++i)
     judgeCamera(judge, calibration.cameras[i], cameras[i], calibration.metric);
+  judgeSelf(judge, calibration);
   const std::string off = "the given poses disagree with the recording by " +
                           number(calibration.given_off_deg, 2) + " degrees and " +
                           number(100.0 * calibration.given_off_share, 1) + " % of the distance";

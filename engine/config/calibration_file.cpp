@@ -24,7 +24,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// A whole number would be read as an integer, which is as good; "inf" and "nan" cannot be.
-std::string exact(double value) {
+std::string numberToTheLastBit(double value) {
   char number[40];
   std::snprintf(number, sizeof number, "%.17g", value);
   return number;
@@ -34,7 +34,7 @@ template <class Derived>
 std::string listed(const Eigen::DenseBase<Derived>& values) {
   std::string result = "[";
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    result += (i > 0 ? ", " : "") + exact(values.derived().data()[i]);
+    result += (i > 0 ? ", " : "") + numberToTheLastBit(values.derived().data()[i]);
   return result + "]";
 }
 
@@ -102,7 +102,7 @@ std::string toToml(const SavedCalibration& calibration) {
             "\nrotation_wxyz = " + listed(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z())) +
             "\ntranslation_m = " + listed(camera.camera_from_world.translation) +
             "\ncovariance = " + listed(camera.covariance) + "\n";
-    if (camera.focal_scale != 1.0) text += "focal_scale = " + exact(camera.focal_scale) + "\n";
+    if (camera.focal_scale != 1.0) text += "focal_scale = " + numberToTheLastBit(camera.focal_scale) + "\n";
   }
   return text;
 }

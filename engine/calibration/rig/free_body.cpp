@@ -8,7 +8,7 @@
 namespace helical {
 namespace {
 
-constexpr std::size_t kMostPoints = 400;  // a large board; each adds three unknowns
+constexpr std::size_t kMostBodyPoints = 400;  // a large board; each adds three unknowns
 
 }  // namespace
 
@@ -26,10 +26,10 @@ FreeBody freeBody(const SightingTable& table, std::span<const RigCamera> cameras
     if (is_new) body.given.push_back(s.in_body);
     body.point.push_back(entry->second);
   }
-  if (body.given.size() > kMostPoints)
+  if (body.given.size() > kMostBodyPoints)
     throw Error(ErrorKind::kInput,
                 "the body has " + std::to_string(body.given.size()) + " different points: too many to refine", file,
-                "give each of its points the same coordinates in all rows, at most " + std::to_string(kMostPoints));
+                "give each of its points the same coordinates in all rows, at most " + std::to_string(kMostBodyPoints));
   body.points = body.given;
   body.given_cameras.assign(cameras.begin(), cameras.end());
   body.focal_scales.assign(cameras.size(), 1.0);

@@ -330,6 +330,22 @@ TEST(RigCalibration, DelaysBetweenCamerasAreFoundByALight) {
   EXPECT_LT(errors.metres, 0.01);
 }
 
+/// Webcams as they come: frames of their own rhythm or not, a third of the centroids false.
+TEST(RigCalibration, DelaysAreFoundAmongFalseCentroids) {
+  for (const bool together : {true, false}) {
+    RecordingOptions recording = freeRunning(20.0);
+    recording.together = together;
+    recording.outliers = 0.3;
+    const MadeRecording made = wavedLight(recording, 71);
+    const RigCalibration solved = solve(made.unposed(), made.rows);
+    EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
+    ASSERT_TRUE(solved.delays);
+    for (std::size_t c = 0; c < 4; ++c)
+      EXPECT_NEAR(solved.cameras[c].late_s, recording.late_s[c], 0.004) << together << c;
+    EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.015) << together;
+  }
+}
+
 TEST(RigCalibration, DelaysBetweenCamerasAreFoundByABoard) {
   const RecordingOptions recording = freeRunning(4.0);
   const MadeRecording made = wavedBoard(recording, 22);

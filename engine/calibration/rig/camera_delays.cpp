@@ -1,12 +1,10 @@
 #include "engine/calibration/rig/camera_delays.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace helical {
 namespace {
 
-constexpr double kReachPeriods = 1.5;
 // Twice the log-likelihood that each delay must bring: five standard deviations and a little for the search.
 constexpr double kLeastGain = 30.0;
 
@@ -39,12 +37,8 @@ DelayNoise noiseAfterDelay(Timing timing, double periods) {
   // weights, (1 - share)^2 + share^2, with the share moved by the delay; over that without one, 2/3.
   if (timing == Timing::kInterpolated) return {1.0 + 3.0 * square, 6.0 * periods};
   // Weights of a parabola's three rows: 1 - x^2, (x^2 - x) / 2, (x^2 + x) / 2; the sum of their squares.
+  if (square > 1.0) return {};
   return {1.0 + 1.5 * square * (square - 1.0), 3.0 * periods * (2.0 * square - 1.0)};
-}
-
-bool delaysAreInReach(const SightingTable& table) {
-  return std::all_of(table.late_s.begin(), table.late_s.end(),
-                     [&](double late) { return std::abs(late) < kReachPeriods * table.period_s; });
 }
 
 bool delaysAreReal(std::span<const Eigen::Vector2d> without, std::span<const Eigen::Vector2d> with,

@@ -23,12 +23,12 @@ void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std
 /// its derivative. Between two pixels their noise averages: the residuals of a camera that is moved by half a
 /// period shrink, right or wrong, and least squares alone would move all of them.
 struct DelayNoise {
-  double variance = 1.0, slope = 0.0;
+  double variance = 1.0, slope = 0.0;  ///< not told beyond a period: zero
 };
 DelayNoise noiseAfterDelay(Timing timing, double periods);
 
-/// Whether delays stay where a track's parabola holds: one and a half periods.
-bool delaysAreInReach(const SightingTable& table);
+/// Delays that a track's parabola can tell: more, and what a camera saw belongs to another frame.
+constexpr double kDelayReachPeriods = 1.25;
 
 /// Whether delays explain more than chance would: residuals (seen less predicted, over their standard
 /// deviation, of the same sightings) without and with them.

@@ -10,14 +10,16 @@ namespace {
 
 constexpr double kSameStamp = 2e-6;  // s
 constexpr double kLongestGap = 2.5;  // periods
-constexpr double kUsualSteps = 6.0;
+// A third of false centroids makes half of the steps false ones: the usual step is that of the slower of the
+// others.
+constexpr double kUsualQuantile = 0.25, kUsualSteps = 6.0;
 constexpr double kSmallStepPx = 5.0;
 
-double median(std::vector<double>& values) {
+double quantile(std::vector<double>& values, double fraction) {
   if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 bool sameTrack(const PointRow& a, const PointRow& b) {
@@ -34,7 +36,7 @@ class Bridge {
       : longest_gap_s_(kLongestGap * period_s) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < rows; ++i) steps.push_back((pixel_of(i) - pixel_of(i - 1)).norm());
-    largest_step_px_ = std::max(kSmallStepPx, kUsualSteps * median(steps));
+    largest_step_px_ = std::max(kSmallStepPx, kUsualSteps * quantile(steps, kUsualQuantile));
   }
 
   bool holds(const PointRow& a, const PointRow& b) const {
@@ -64,7 +66,7 @@ void interpolateTrack(const PointRows& rows, std::span<const std::size_t> track,
       row.row.pixel = a.pixel + share * (b.pixel - a.pixel);
       if (!rows.in_body.empty()) row.in_body = rows.in_body[track[i - 1]];
       row.instant = k;
-      row.motion.velocity = (b.pixel - a.pixel) / gap;
+      row.motion = {true, (b.pixel - a.pixel) / gap, Eigen::Vector2d::Zero()};
       out.push_back(row);
     }
   }
@@ -76,11 +78,11 @@ PixelMotion motionAt(const PointRow* before, const PointRow& row, const PointRow
     return (b.pixel - a.pixel) / (b.time_s - a.time_s);
   };
   if (before == nullptr && after == nullptr) return {};
-  if (before == nullptr) return {slope(row, *after), Eigen::Vector2d::Zero()};
-  if (after == nullptr) return {slope(*before, row), Eigen::Vector2d::Zero()};
+  if (before == nullptr) return {true, slope(row, *after), Eigen::Vector2d::Zero()};
+  if (after == nullptr) return {true, slope(*before, row), Eigen::Vector2d::Zero()};
   const Eigen::Vector2d in = slope(*before, row), out = slope(row, *after);
   const double gap_in = row.time_s - before->time_s, gap_out = after->time_s - row.time_s;
-  return {(in * gap_out + out * gap_in) / (gap_in + gap_out), 2.0 * (out - in) / (gap_in + gap_out)};
+  return {true, (in * gap_out + out * gap_in) / (gap_in + gap_out), 2.0 * (out - in) / (gap_in + gap_out)};
 }
 
 }  // namespace
@@ -108,7 +110,7 @@ Rhythm rhythmOf(const PointRows& rows, int cameras) {
     i = j;
   }
   Rhythm rhythm;
-  rhythm.period_s = median(gaps);
+  rhythm.period_s = quantile(gaps, 0.5);
   rhythm.shared_stamps = frames > 0 ? static_cast<double>(shared) / static_cast<double>(frames) : 0.0;
   return rhythm;
 }

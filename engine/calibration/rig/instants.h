@@ -8,6 +8,7 @@ namespace helical {
 
 /// How a track moves through a pixel: its parabola there [px/s, px/s^2]. Zero where no neighbour tells.
 struct PixelMotion {
+  bool known = false;
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();
 };

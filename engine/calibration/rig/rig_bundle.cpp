@@ -13,6 +13,7 @@ namespace helical {
 namespace {
 
 constexpr double kScaleWeightPx = 100.0;
+constexpr double kLongestStep = 0.3;  // periods that a delay changes by at once: beyond, the parabola guesses
 constexpr double kUnseenPx = 1000.0;  // stands for a point which the camera model cannot project
 constexpr double kGivenFocal = 1.0;   // a scale
 using Block = std::array<double, 7>;  // quaternion x y z w, translation
@@ -280,15 +281,14 @@ class Bundle {
     const auto c = static_cast<std::size_t>(s.camera), i = static_cast<std::size_t>(s.item);
     const bool known = body_ ? state_.world_from_body[i].has_value() : state_.points[i].has_value();
     if (!s.inlier || !known || !state_.camera_from_world[c]) return;
+    if (options_.late_s != nullptr && !s.motion.known) return;  // would say that nothing is late
     double *camera = camera_blocks_[c].data(), *item = item_blocks_[i].data();
     if (!problem_.HasParameterBlock(camera)) {
       store(*state_.camera_from_world[c], camera);
       problem_.AddParameterBlock(camera, 7, &camera_manifold_);
       ordering_->AddElementToGroup(camera, 1);
       if (state_.fixed[c]) problem_.SetParameterBlockConstant(camera);
-      problem_.AddParameterBlock(&late_blocks_[c], 1);
-      ordering_->AddElementToGroup(&late_blocks_[c], 1);
-      if (options_.late_s == nullptr) problem_.SetParameterBlockConstant(&late_blocks_[c]);
+      addDelay(&late_blocks_[c]);
     }
     if (!problem_.HasParameterBlock(item)) {
       if (body_)
@@ -311,6 +311,16 @@ class Bundle {
     else
       cost = new SightingCost<3>(cameras[c].model, s);
     problem_.AddResidualBlock(cost, loss_.get(), camera, item, &late_blocks_[c]);
+  }
+
+  void addDelay(double* late) {
+    problem_.AddParameterBlock(late, 1);
+    ordering_->AddElementToGroup(late, 1);
+    if (options_.late_s == nullptr) return problem_.SetParameterBlockConstant(late);
+    const double total = table_.late_s[static_cast<std::size_t>(late - late_blocks_.data())];
+    const double step = kLongestStep * table_.period_s, reach = kDelayReachPeriods * table_.period_s;
+    problem_.SetParameterLowerBound(late, 0, std::min(0.0, std::max(-step, -reach - total)));
+    problem_.SetParameterUpperBound(late, 0, std::max(0.0, std::min(step, reach - total)));
   }
 
   /// The items' own unknowns take up their share of the residuals.

@@ -30,7 +30,7 @@ constexpr double kFewBeyond = 0.01;  // of the sightings
 constexpr double kRobustSigmas = 3.0;
 constexpr double kTightestGatePx = 0.5;
 constexpr int kGateRounds = 4;
-constexpr int kDelayRounds = 8;
+constexpr int kDelayRounds = 12;
 constexpr double kSettledPeriods = 1e-3;  // a delay that changes by less has settled
 // Interpolation averages neighbours, which makes pixels look better than they are.
 constexpr double kInterpolationFlatters = 1.2;
@@ -121,26 +121,38 @@ std::pair<std::vector<Eigen::Vector2d>, std::vector<Eigen::Vector2d>> commonResi
   return both;
 }
 
+/// Less is likelier: residuals are smaller, and as much is explained.
+double unlikeliness(const Solution& s) {
+  return s.sigma_px / std::max(1e-3, s.explained * s.explained);
+}
+
+/// Delays and poses in turn, until the delays have settled. `knowing_noise`: once residuals are noise, what a
+/// delay gains by averaging it is known, and taken back.
+void settleDelays(Solution& s, std::span<const RigCamera> cameras, bool knowing_noise) {
+  for (int round = 0; round < kDelayRounds; ++round) {
+    const double sigma = sightingSigma(s.state, cameras, s.table);
+    gate(s, cameras, kWideGateSigmas * sigma);
+    std::vector<double> later_s(cameras.size(), 0.0);
+    adjustBundle(s.state, cameras, s.table,
+                 {kRobustSigmas * sigma, 100, false, &later_s, knowing_noise ? sigma : 0.0});
+    takeOffDelays(s.table, cameras, later_s);
+    const bool settled = std::all_of(later_s.begin(), later_s.end(), [&](double later) {
+      return std::abs(later) < kSettledPeriods * s.table.period_s;
+    });
+    if (settled) return;
+  }
+}
+
 /// Finds how much later than the first each camera saw, and keeps it if it explains the recording better.
 void findDelays(Solution& s, std::span<const RigCamera> cameras) {
   if (s.table.kind == TargetKind::kStillMarkers || s.state.solvedCameras() < 2) return;
   Solution timed = s;
   timed.table.late_s.assign(cameras.size(), 0.0);
-  for (int round = 0; round < kDelayRounds; ++round) {
-    const double sigma = sightingSigma(timed.state, cameras, timed.table);
-    gate(timed, cameras, kWideGateSigmas * sigma);
-    std::vector<double> later_s(cameras.size(), 0.0);
-    adjustBundle(timed.state, cameras, timed.table, {kRobustSigmas * sigma, 100, false, &later_s, sigma});
-    takeOffDelays(timed.table, cameras, later_s);
-    if (!delaysAreInReach(timed.table)) return;
-    const bool settled = std::all_of(later_s.begin(), later_s.end(), [&](double later) {
-      return std::abs(later) < kSettledPeriods * timed.table.period_s;
-    });
-    if (settled) break;
-  }
+  settleDelays(timed, cameras, false);
+  settleDelays(timed, cameras, true);
   refine(timed);
   const auto [without, with] = commonResiduals(s, timed, cameras);
-  if (timed.explained >= s.explained - kFewBeyond && delaysAreReal(without, with, cameras.size()))
+  if (unlikeliness(timed) < unlikeliness(s) && delaysAreReal(without, with, cameras.size()))
     s = std::move(timed);
 }
 
@@ -165,9 +177,7 @@ Solution solveLikeliest(std::vector<SightingTable> tables, std::span<const RigCa
   for (SightingTable& table : tables) {
     Solution s = solveFreely(std::move(table), cameras, options, progress);
     const double flatters = s.table.timing == Timing::kInterpolated ? kInterpolationFlatters : 1.0;
-    const double score = s.state.solvedCameras() < 2
-                             ? 1e300
-                             : flatters * s.sigma_px / std::max(1e-3, s.explained * s.explained);
+    const double score = s.state.solvedCameras() < 2 ? 1e300 : flatters * unlikeliness(s);
     if (best && score >= least) continue;
     least = score;
     best = std::move(s);

@@ -21,6 +21,8 @@ constexpr double kSeedRmsPx = 2.0,
                  kSeedSigmas = 4.0;  // whichever is more: how badly a seed may fit its frame
 constexpr double kSeedRotation = 0.02, kSeedPosition = 0.06;  // how far off a planar pose may be [rad, m]
 constexpr double kSameRotation = 0.02, kSamePosition = 0.06;
+constexpr double kNoiseAlone = 1.25;  // variance that the median of some twenty frames may show by chance
+constexpr double kLastingGap = 8.0;
 constexpr int kIterations = 12;
 constexpr int kFairIterations = 4;
 constexpr double kHopelessChi2 = 200.0;
@@ -277,8 +279,12 @@ void JointSearch::prune() {
   std::sort(hypotheses_.begin(), end,
             [](const Hypothesis& a, const Hypothesis& b) { return a.rank_cost < b.rank_cost; });
   const Hypothesis& best = hypotheses_[0];
-  // Where even the best fits badly, sigma is too small: the gap grows with it.
+  // Where even the best fits badly, sigma is too small: the gap grows with it. And then the balls are not where
+  // they are said to be: such errors do not average out, and for frames that look alike a wrong name or a camera
+  // mirrored at the balls' plane may fit better by chance. So much more is asked for, which motion brings.
   const double variance = std::max(1.0, best.median_sigmas * best.median_sigmas / kMedianSquared);
+  const double lasting = kLastingGap * std::max(0.0, variance - kNoiseAlone);
+  const double gap = options_.prune_chi2 * variance * (1.0 + lasting);
   const bool enough = static_cast<int>(store_.frames().size()) >= options_.prune_frames;
   int kept = 0;
   for (int i = 0; i < in_round_count_; ++i) {
@@ -286,7 +292,7 @@ void JointSearch::prune() {
     if (!each.camera_from_world.translation.allFinite() ||
         each.camera_from_world.inverseTranslation().norm() > kFarthestM)
       continue;
-    if (i > 0 && enough && each.rank_cost - best.rank_cost > options_.prune_chi2 * variance) break;
+    if (i > 0 && enough && each.rank_cost - best.rank_cost > gap) break;
     const bool twin = std::any_of(
         hypotheses_.begin(), hypotheses_.begin() + kept,
         [&](const Hypothesis& other) { return sameMode(other.camera_from_world, each.camera_from_world); });

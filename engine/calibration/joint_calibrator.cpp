@@ -136,6 +136,9 @@ void JointCalibrator::seek() {
   if (search_.decided()) {
     locked_ = true;
     smoother_.start(hypotheses.front().camera_from_world);
+    estimate_.camera_from_world = hypotheses.front().camera_from_world;
+    estimate_.covariance = hypotheses.front().covariance();
+    return;
   }
   // While several explain the frames, the guess is as good a judge as any.
   const auto distance = [&](const JointSearch::Hypothesis& hypothesis) {
@@ -146,7 +149,9 @@ void JointCalibrator::seek() {
       *std::min_element(hypotheses.begin(), hypotheses.end(),
                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   estimate_.camera_from_world = nearest.camera_from_world;
-  estimate_.covariance = nearest.covariance();
+  // How well the frames fix it if it is the right one says nothing of whether it is: until that is decided no more is
+  // claimed than of the guess.
+  estimate_.covariance = covarianceOf(spread_) + nearest.covariance();
   for (const auto& hypothesis : hypotheses) {
     const Vector6d apart = cameraPerturbation(nearest.camera_from_world, hypothesis.camera_from_world);
     estimate_.covariance += apart * apart.transpose() / static_cast<double>(hypotheses.size());

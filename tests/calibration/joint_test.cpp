@@ -118,6 +118,26 @@ double errorAfter(const TrainingFlight& flight) {
   return test::positionError(calibrator->estimate().camera_from_world, flight.camera_from_world);
 }
 
+/// What is claimed before that is the guess, however well frames that look alike fix one of the places.
+TEST(Joint, ClaimsNoMoreThanTheGuessUntilItHasDecided) {
+  test::TrainingFlightOptions options;
+  options.markers = square();
+  const TrainingFlight flight = flyForTraining(7, options);
+  const auto calibrator = makeCalibrator("joint", whiteNoise(), flight.camera, flight.markers, 1);
+  calibrator->restart(flight.guess);
+  const double guessed = calibrator->estimate().covariance.trace();
+  int undecided = 0;
+  for (const auto& frame : flight.frames) {
+    calibrator->step(frame.view());
+    if (calibrator->knowsItsPlace()) break;
+    ++undecided;
+    EXPECT_GE(calibrator->estimate().covariance.trace(), guessed);
+  }
+  EXPECT_GT(undecided, 10);
+  EXPECT_TRUE(calibrator->knowsItsPlace());
+  EXPECT_LT(calibrator->estimate().covariance.trace(), 0.1 * guessed);
+}
+
 TEST(Joint, FindsItsPlaceBesideALampThatLooksLikeABall) {
   for (const MarkerLayout& markers : {asymmetric(), six()})
     for (std::uint64_t seed = 0; seed < 5; ++seed) {

@@ -9,6 +9,9 @@
 namespace helical {
 namespace {
 
+/// Runs that take no longer than the clock's reading take at least its resolution: ratios stay finite.
+constexpr double kLeastUs = 1e-3;
+
 double medianOf(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -42,7 +45,7 @@ void SideBySide::measure(int rounds) {
       const TimeNs start = threadCpuTime();
       for (int i = 0; i < contestant.repeats; ++i) contestant.run();
       const auto taken_us = static_cast<double>(threadCpuTime() - start) * 1e-3;
-      contestant.times_us.push_back(std::max(0.0, taken_us - clock_us) / contestant.repeats);
+      contestant.times_us.push_back(std::max(kLeastUs, taken_us - clock_us) / contestant.repeats);
     }
 }
 

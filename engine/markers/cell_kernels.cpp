@@ -71,7 +71,7 @@ constexpr bool kHasQuads = L == CellLayout::kQuadsColourFirst || L == CellLayout
 /// Bytes that are fetched for a word, and how far before they are needed: memory answers after the time that
 /// so many take to test.
 template <CellLayout L>
-constexpr int kFetched = 64 * kBytesPerCell<L>*(kHasQuads<L> ? 2 : 1);
+constexpr int kFetched = 64 * (kHasQuads<L> ? 2 : 1) * kBytesPerCell<L>;
 constexpr int kBytesAhead = 4096;
 /// Words with candidates whose surroundings are fetched; where there are more, the frame is read as a whole.
 constexpr int kFetchedAround = 256;
@@ -95,7 +95,8 @@ struct BeginsOfCells {
 template <CellLayout L, std::size_t k>
 constexpr BeginsOfCells<L, k> kBeginsOfCells;
 
-#if HWY_TARGET == HWY_AVX3_DL
+// The better a target, the smaller its number.
+#if HWY_TARGET <= HWY_AVX3_DL
 /// Sorts three vectors of triples by lookups in two tables of bytes, which Highway does not have: a third of
 /// the operations of hn::LoadInterleaved3.
 constexpr bool kSortsQuickly = true;
@@ -589,16 +590,21 @@ struct FindInRows {
   }
 
   template <CellLayout L>
-  HWY_INLINE void fetchWord(const std::uint8_t* cells) const {
+  HWY_INLINE static void fetchWord(const std::uint8_t* cells, std::ptrdiff_t second_row) {
     for (int byte = 0; byte < WordCells<L>::kWordBytes; byte += 64) {
       hwy::Prefetch(cells + byte);
-      if constexpr (kHasQuads<L>) hwy::Prefetch(cells + grid.second_row + byte);
+      if constexpr (kHasQuads<L>) hwy::Prefetch(cells + second_row + byte);
     }
   }
 
   template <CellLayout L>
+  HWY_INLINE static void fetchWordOf(const CellGrid& cells, int y, int w) {
+    fetchWord<L>(cells.row(y) + w * WordCells<L>::kWordBytes, cells.second_row);
+  }
+
+  template <CellLayout L>
   HWY_INLINE void fetchRow(int y) const {
-    for (int w = first_word; w < end_word; ++w) fetchWord<L>(grid.row(y) + w * WordCells<L>::kWordBytes);
+    for (int w = first_word; w < end_word; ++w) fetchWordOf<L>(grid, y, w);
   }
 
   /// What will be read of this word when the rows are done: as far as a square through it reaches, and the
@@ -607,8 +613,8 @@ struct FindInRows {
   HWY_INLINE void fetchAround(int y, int w) const {
     const int first = std::max(0, y - rows.step + 1), last = std::min(grid.height - 1, y + rows.step - 1);
     for (int row = first; row <= last; ++row) {
-      if (row != y) fetchWord<L>(grid.row(row) + w * WordCells<L>::kWordBytes);
-      if (background != nullptr) fetchWord<L>(background->row(row) + w * WordCells<L>::kWordBytes);
+      if (row != y) fetchWordOf<L>(grid, row, w);
+      if (background != nullptr) fetchWordOf<L>(*background, row, w);
     }
   }
 
@@ -621,7 +627,7 @@ struct FindInRows {
     // Those behind which there are bytes.
     const int inner_words = y + 1 < grid.height || grid.width % 64 != 0 ? whole_words : whole_words - 1;
     for (int w = first_word; w < whole_words; ++w) {
-      fetchWord<L>(ahead + w * kWordBytes);
+      fetchWord<L>(ahead + w * kWordBytes, grid.second_row);
       const std::uint8_t* cells = row + w * kWordBytes;
       const Place place{cells, cells + grid.second_row};
       if (w < inner_words && HWY_LIKELY(refiner.holdsNone(place))) continue;

@@ -141,11 +141,12 @@ void CutDisc::descend(DiscCells& cells, int steps) {
   }
 }
 
-Eigen::Matrix2d CutDisc::covariance(DiscCells& cells) const {
+Eigen::Matrix2d CutDisc::covariance(DiscCells& cells, double least_variance) const {
   DiscSums sums;
   sumCutDisc(cells, sums);
   const Normal inverse = normalOf(sums, disc[kDiscAmbient]).ldlt().solve(Normal::Identity());
-  return sums.squares / std::max(1.0, sums.count - double{kCutParameters}) * inverse.topLeftCorner<2, 2>();
+  const double variance = sums.squares / std::max(1.0, sums.count - double{kCutParameters});
+  return std::max(least_variance, variance) * inverse.topLeftCorner<2, 2>();
 }
 
 }  // namespace helical

@@ -21,8 +21,8 @@ struct CutDisc {
   void descend(DiscCells& cells, int steps);
   /// Fills the cells' residuals, slopes, and what is seen of them.
   void evaluate(DiscCells& cells) const;
-  /// Of the disc's centre, of cells just evaluated.
-  Eigen::Matrix2d covariance(DiscCells& cells) const;
+  /// Of the disc's centre, of cells just evaluated, whose residuals have at least that variance.
+  Eigen::Matrix2d covariance(DiscCells& cells, double least_variance) const;
 };
 
 /// The best fit to cells around a region of which something hides a part, from whichever side: `disc` has the

@@ -12,6 +12,8 @@ constexpr int kMargin = 3;             ///< cells around the region's box
 constexpr double kReach = 2.5;         ///< cells outside of the region's box that are fitted, too
 constexpr double kLeastChroma = 12.0;  ///< levels: below, a ball is told by its brightness
 constexpr float kLeastScale = 0.7F;    ///< levels: quantisation and what the model leaves out
+/// Squared levels: no fit is believed to scatter by less than half of that.
+constexpr double kLeastVariance = 0.25 * kLeastScale * kLeastScale;
 constexpr double kLeastContrast = 8.0;
 constexpr int kSteps = 6;
 constexpr int kRounds = 3;
@@ -188,7 +190,8 @@ std::optional<Disc> DiscFit::fitColour() {
     if (const auto disc = result()) return disc;
   if (smear.isOver(kLeastSmear)) return std::nullopt;
   smear_.setZero();
-  if (!neighbour_)
+  // Of a large ball only one that is seen nearly whole is believed, which no edge hides a part of.
+  if (!neighbour_ && binary_.radius < kLarge)
     if (const auto cut = fitCut()) return cut;
   start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
@@ -205,14 +208,10 @@ std::optional<Disc> DiscFit::fitCut() {
   p_ = cut.disc;
   double seen = 0.0;
   for (std::size_t i = 0; i < real_count_; ++i) seen += cells.cover[i];
-  Disc disc;
-  disc.centre = {left_ + static_cast<double>(p_[kDiscX]), top_ + static_cast<double>(p_[kDiscY])};
-  disc.radius = p_[kDiscRadius];
-  disc.seen_share = seen / (kPi * disc.radius * disc.radius);
-  disc.covariance = cut.covariance(cells);
+  const auto disc = believed(cut.covariance(cells, kLeastVariance), seen);
   const double noise = noiseAround();
   const bool fits = cut.squares < kCutTail * noise * noise * cut.count;
-  if (!fits || !isPlausible() || disc.seen_share < kLeastSeen || isDoubtful(disc)) return std::nullopt;
+  if (!fits || !isPlausible() || !disc || disc->seen_share < kLeastSeen) return std::nullopt;
   leaveOutHidden();
   return disc;
 }
@@ -480,15 +479,18 @@ std::optional<Disc> DiscFit::result() {
   for (std::size_t i = 0; i < real_count_; ++i)
     if (is_marked_[placeOf(i)] == 0 && givenAt(colour_->x[i], colour_->y[i]) != 0.0F)
       seen += colour_->cover[i];
-  const double least = 0.25 * kLeastScale * kLeastScale;
-  const double variance = std::max(least, system.squares / std::max(1.0, system.count - kUnknowns));
+  const double variance = std::max(kLeastVariance, system.squares / std::max(1.0, system.count - kUnknowns));
   const double contrast = p_[kDiscAmbient] + std::max(0.0F, p_[kDiscLightZ]) - p_[kDiscAround];
   const double noise = noiseAround();
   if (variance > noise * noise + kWorstMisfit * kWorstMisfit * contrast * contrast) return std::nullopt;
   const Normal inverse = system.normal.ldlt().solve(Normal::Identity());
+  return believed(variance * inverse.topLeftCorner<2, 2>(), seen);
+}
+
+std::optional<Disc> DiscFit::believed(const Eigen::Matrix2d& covariance, double seen) const {
   Disc disc;
   disc.centre = {left_ + static_cast<double>(p_[kDiscX]), top_ + static_cast<double>(p_[kDiscY])};
-  disc.covariance = variance * inverse.topLeftCorner<2, 2>();
+  disc.covariance = covariance;
   disc.radius = p_[kDiscRadius];
   // What of the disc lies outside of the fitted cells is hidden, too.
   disc.seen_share = std::clamp(seen / (kPi * disc.radius * disc.radius), 0.0, 1.0);

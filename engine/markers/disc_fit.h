@@ -78,6 +78,9 @@ class DiscFit {
   void leaveOutHidden();
   void leaveOutMarked(DiscCells& cells);
   std::optional<Disc> result();
+  /// The disc at the current parameters, with the cells of it that are seen; nothing if it is doubtful or its
+  /// covariance is none.
+  std::optional<Disc> believed(const Eigen::Matrix2d& covariance, double seen) const;
   int traceOutline(std::span<OutlinePoint> outline) const;
   bool isPlausible() const;
   bool isDoubtful(const Disc& disc) const;

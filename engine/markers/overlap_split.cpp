@@ -22,6 +22,9 @@ constexpr double kLeftOver = 0.06;
 /// Cells, of the waist of two discs: what square cells fill of its depth (0.4 to 0.9, the sharper the more),
 /// and how deep at least it must be. A smeared ball has none.
 constexpr double kFilled = 0.6, kLeastWaist = 0.35;
+/// Of the depth that the circles and their filling leave: halfway between the waist of two discs and none,
+/// which is a smeared ball's.
+constexpr double kWaistSeen = 0.5;
 constexpr double kEdge = 0.7;  ///< cells: half a cell's diagonal
 
 double distance(double x, double y, const OutlinePoint& point) {
@@ -70,7 +73,7 @@ bool hasWaist(const ValueWindow& window, const std::array<OutlineCircle, 2>& pai
   const double half = std::sqrt(std::max(0.0, r0 * r0 - along * along));
   const OutlinePoint middle{pair[0].centre.x + along * nx, pair[0].centre.y + along * ny};
   const double smaller = std::min(r0, r1);
-  const double most = smaller - std::max(kLeastWaist, 0.5 * (smaller - half - kFilled));
+  const double most = smaller - std::max(kLeastWaist, kWaistSeen * (smaller - half - kFilled));
   const double sum = reach(window, middle, -ny, nx, smaller) + reach(window, middle, ny, -nx, smaller);
   return 0.5 * sum < most;
 }

@@ -126,6 +126,18 @@ RigCorrections correctionsOf(const RigCalibration& calibration, const RigConfig&
   return corrections;
 }
 
+/// Against the first placed camera, whose own delay is zero.
+void printDelays(const RigCalibration& calibration) {
+  if (!calibration.delays) return;
+  const auto first = std::find_if(calibration.cameras.begin(), calibration.cameras.end(),
+                                  [](const auto& c) { return c.camera_from_world && c.late_s == 0.0; });
+  for (const CalibratedCamera& c : calibration.cameras)
+    if (c.late_s != 0.0 && first != calibration.cameras.end())
+      std::printf("camera %s saw %.4g s %s than its time stamps say, against camera %s: taken into account\n",
+                  c.label.c_str(), std::abs(c.late_s), c.late_s > 0.0 ? "later" : "earlier",
+                  first->label.c_str());
+}
+
 void printReport(const RigCalibration& calibration) {
   std::printf("target: %s, %d %s%s\n", nameOf(calibration.target), calibration.items,
               calibration.target == TargetKind::kBody ? "poses" : "points",
@@ -144,10 +156,7 @@ void printReport(const RigCalibration& calibration) {
       std::printf(calibration.metric ? " %9.2f mm %8.3f deg\n" : " %12.2e %8.3f deg\n",
                   (calibration.metric ? 1e3 : 1.0) * c.position_sigma_m, c.orientation_sigma_deg);
   }
-  for (const CalibratedCamera& c : calibration.cameras)
-    if (calibration.delays && c.late_s != 0.0)
-      std::printf("camera %s saw %.4g s %s than its time stamps say, against the first: taken into account\n",
-                  c.label.c_str(), std::abs(c.late_s), c.late_s > 0.0 ? "later" : "earlier");
+  printDelays(calibration);
   printCorrections(calibration);
   std::printf("verdict: %s\n", nameOf(calibration.verdict));
   for (const std::string& reason : calibration.reasons) std::printf("  %s\n", reason.c_str());
@@ -171,8 +180,9 @@ void writeRig(const RigArguments& arguments, const RigConfig& rig, const RigCali
   std::vector<WrittenPose> poses;
   for (const CalibratedCamera& c : calibration.cameras)
     if (c.camera_from_world && !c.given) poses.push_back({c.label, *c.camera_from_world, c.covariance});
-  writeTextFile(arguments.out, rigWithPoses(readTextFile(arguments.rig, "rig file"), arguments.rig, poses,
-                                            provenance(arguments, calibration), correctionsOf(calibration, rig)));
+  writeTextFile(arguments.out,
+                rigWithPoses(readTextFile(arguments.rig, "rig file"), arguments.rig, poses,
+                             provenance(arguments, calibration), correctionsOf(calibration, rig)));
 }
 
 int calibrate(const RigArguments& arguments) {
@@ -228,8 +238,9 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
   command->add_flag("--trust-stamps", arguments->trust_stamps,
                     "Seek no delays between cameras: they were triggered together");
   command
-      ->add_option("--refine-markers", arguments->self.marker_sigma_m,
-                   "METRES: the body's points are off its coordinates by about so much per axis: find them, too")
+      ->add_option(
+          "--refine-markers", arguments->self.marker_sigma_m,
+          "METRES: the body's points are off its coordinates by about so much per axis: find them, too")
       ->check(CLI::Range(0.0, 0.02));
   command
       ->add_option("--refine-focal", arguments->self.focal_sigma,
@@ -240,10 +251,8 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
       "Verdict: good, usable or bad, and why. A bad calibration is not written (exit code 1).\n"
       "The scale comes from body coordinates, from two given poses, or from --scale; otherwise it is "
       "arbitrary.\n"
-      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say: how much later "
-      "than "
-      "the\n"
-      "first each of them saw is found from how the target moves, told, and taken into account.\n"
+      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say: how much later\n"
+      "than the first each of them saw is found from how the target moves, told, and taken into account.\n"
       "Focal lengths that were found go into the rig file, and points that are its balls.");
   command->callback([arguments, &exit_code] { exit_code = calibrate(*arguments); });
 }

@@ -66,7 +66,8 @@ struct WrongBoard {
     std::map<std::pair<double, double>, Eigen::Vector3d> shifts;
     for (Eigen::Vector3d& point : rows.in_body) {
       const auto [shift, is_new] = shifts.try_emplace({point.x(), point.y()});
-      if (is_new) shift->second = point_sigma_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      if (is_new)
+        shift->second = point_sigma_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
       point += shift->second;
     }
   }
@@ -76,7 +77,8 @@ TEST(RigCalibration, PointsOfTheBodyThatAreOffAreFound) {
   const WrongBoard board(1e-3, 0.0, 21);
   RigCalibrationOptions options;
   options.self.marker_sigma_m = 1e-3;
-  const RigCalibration plain = solve(board.cameras, board.rows), refined = solve(board.cameras, board.rows, options);
+  const RigCalibration plain = solve(board.cameras, board.rows),
+                       refined = solve(board.cameras, board.rows, options);
   EXPECT_EQ(refined.verdict, RigVerdict::kGood) << reasonsOf(refined);
   EXPECT_LT(refined.sigma_px, plain.sigma_px);
   EXPECT_NEAR(refined.sigma_px, 0.5, 0.03);
@@ -87,7 +89,8 @@ TEST(RigCalibration, PointsOfTheBodyThatAreOffAreFound) {
   for (std::size_t a = 0; a < 24; ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const auto truth = [](const CalibratedPoint& p) {
-        return Eigen::Vector3d(0.06 * std::round(p.given.x() / 0.06), 0.06 * std::round(p.given.y() / 0.06), 0.0);
+        return Eigen::Vector3d(0.06 * std::round(p.given.x() / 0.06), 0.06 * std::round(p.given.y() / 0.06),
+                               0.0);
       };
       const double apart = (truth(refined.points[a]) - truth(refined.points[b])).norm();
       before += std::pow((refined.points[a].given - refined.points[b].given).norm() - apart, 2);
@@ -99,7 +102,8 @@ TEST(RigCalibration, PointsOfTheBodyThatAreOffAreFound) {
   EXPECT_GT(refined.points[0].sigma_m, 0.0);
   const double error = poseErrors(board.made.cameras, posesOf(refined), false).metres;
   EXPECT_LT(error, poseErrors(board.made.cameras, posesOf(plain), false).metres);
-  EXPECT_GT(refined.cameras[1].position_sigma_m, plain.cameras[1].position_sigma_m) << "it knows less of the scale";
+  EXPECT_GT(refined.cameras[1].position_sigma_m, plain.cameras[1].position_sigma_m)
+      << "it knows less of the scale";
   for (const CalibratedCamera& c : refined.cameras) EXPECT_EQ(c.focal_scale, 1.0);
 }
 
@@ -107,7 +111,8 @@ TEST(RigCalibration, FocalLengthsThatAreOffAreFound) {
   const WrongBoard board(0.0, 0.01, 22);
   RigCalibrationOptions options;
   options.self.focal_sigma = 0.01;
-  const RigCalibration plain = solve(board.cameras, board.rows), refined = solve(board.cameras, board.rows, options);
+  const RigCalibration plain = solve(board.cameras, board.rows),
+                       refined = solve(board.cameras, board.rows, options);
   EXPECT_EQ(refined.verdict, RigVerdict::kGood) << reasonsOf(refined);
   EXPECT_NEAR(refined.sigma_px, 0.5, 0.03);
   double squares = 0.0;
@@ -123,11 +128,26 @@ TEST(RigCalibration, FocalLengthsThatAreOffAreFound) {
   EXPECT_TRUE(refined.points.empty());
 }
 
+/// It is the focal lengths that are wrong, not the poses.
+TEST(RigCalibration, WrongFocalLengthsAreNotLaidAtGivenPosesDoor) {
+  const WrongBoard board(0.0, 0.03, 24);
+  std::vector<RigCamera> cameras = board.cameras;
+  for (const std::size_t c : {0U, 1U}) cameras[c].camera_from_world = board.made.cameras[c].camera_from_world;
+  RigCalibrationOptions options;
+  options.self.focal_sigma = 0.03;
+  const RigCalibration solved = solve(cameras, board.rows, options);
+  EXPECT_EQ(reasonsOf(solved).find("given poses"), std::string::npos) << reasonsOf(solved);
+  EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
+  for (std::size_t c = 0; c < cameras.size(); ++c)
+    EXPECT_NEAR(solved.cameras[c].focal_scale, 1.0 + board.focal_errors[c], 0.01) << c;
+}
+
 TEST(RigCalibration, WhereNothingIsOffRefiningSpoilsLittle) {
   const WrongBoard board(0.0, 0.0, 23);
   RigCalibrationOptions options;
   options.self = {1e-4, 0.002};
-  const RigCalibration plain = solve(board.cameras, board.rows), refined = solve(board.cameras, board.rows, options);
+  const RigCalibration plain = solve(board.cameras, board.rows),
+                       refined = solve(board.cameras, board.rows, options);
   EXPECT_EQ(refined.verdict, plain.verdict) << reasonsOf(refined);
   EXPECT_LT(poseErrors(board.made.cameras, posesOf(refined), false).metres, 0.01);
   for (const CalibratedCamera& c : refined.cameras) EXPECT_NEAR(c.focal_scale, 1.0, 4.0 * c.focal_sigma);
@@ -333,7 +353,7 @@ TEST(RigCalibration, DelaysBetweenCamerasAreFoundByALight) {
 /// Webcams as they come: frames of their own rhythm or not, a third of the centroids false.
 TEST(RigCalibration, DelaysAreFoundAmongFalseCentroids) {
   for (const bool together : {true, false}) {
-    RecordingOptions recording = freeRunning(20.0);
+    RecordingOptions recording = freeRunning(12.0);
     recording.together = together;
     recording.outliers = 0.3;
     const MadeRecording made = wavedLight(recording, 71);
@@ -347,7 +367,7 @@ TEST(RigCalibration, DelaysAreFoundAmongFalseCentroids) {
 }
 
 TEST(RigCalibration, DelaysBetweenCamerasAreFoundByABoard) {
-  const RecordingOptions recording = freeRunning(4.0);
+  const RecordingOptions recording = freeRunning(2.0);
   const MadeRecording made = wavedBoard(recording, 22);
   const RigCalibration solved = solve(made.unposed(), made.rows);
   EXPECT_EQ(solved.verdict, RigVerdict::kGood) << reasonsOf(solved);
@@ -358,6 +378,7 @@ TEST(RigCalibration, DelaysBetweenCamerasAreFoundByABoard) {
 TEST(RigCalibration, CamerasTriggeredTogetherHaveNoDelays) {
   for (const std::uint64_t seed : {31U, 32U, 33U, 34U, 35U, 36U}) {
     RecordingOptions recording;
+    recording.cameras = seed % 2 == 0 ? 2 : 4;
     recording.duration_s = 6.0;
     recording.outliers = 0.05;
     EXPECT_FALSE(solve(wavedLight(recording, seed).unposed(), wavedLight(recording, seed).rows).delays)
@@ -365,11 +386,58 @@ TEST(RigCalibration, CamerasTriggeredTogetherHaveNoDelays) {
   }
 }
 
+/// What hardly moves in a period shows how noise averages, and no delay.
+TEST(RigCalibration, ASlowTargetShowsNoDelays) {
+  RecordingOptions recording;
+  recording.duration_s = 4.0;
+  recording.rate_hz = 300.0;
+  recording.late_s = {0.0, -0.0015, 0.001, 0.0};
+  const MadeRecording made = wavedLight(recording, 41);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  for (const CalibratedCamera& c : solved.cameras) EXPECT_EQ(c.late_s, 0.0) << c.label;
+  EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.02);
+}
+
+/// Without a period there is no motion.
+TEST(RigCalibration, OneInstantIsEnoughForABoard) {
+  RecordingOptions recording;
+  recording.duration_s = 1.5 / recording.rate_hz;
+  recording.dropout = 0.0;
+  const MadeRecording made = wavedBoard(recording, 42);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_FALSE(solved.delays);
+  for (const CalibratedCamera& c : solved.cameras) {
+    ASSERT_TRUE(c.camera_from_world.has_value()) << c.label;
+    EXPECT_TRUE(c.covariance && c.covariance->allFinite()) << c.label;
+  }
+}
+
+TEST(RigCalibration, StampsThatAreMoreThanAFrameOffAreNamed) {
+  RecordingOptions recording = freeRunning(20.0);
+  recording.late_s = {0.0, 0.055, 0.0, 0.0};  // of 33 ms
+  const MadeRecording made = wavedLight(recording, 43);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_NE(solved.verdict, RigVerdict::kGood);
+  EXPECT_NE(reasonsOf(solved).find("time stamps"), std::string::npos) << reasonsOf(solved);
+}
+
+/// A board may go without names of its points, and its cameras without a common rhythm.
+TEST(RigCalibration, ABoardWithoutNamesIsInterpolatedPointByPoint) {
+  RecordingOptions recording;
+  recording.duration_s = 3.0;
+  recording.together = false;
+  const MadeRecording made = wavedBoard(recording, 44);
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
+  EXPECT_LT(solved.sigma_px, 0.7);
+  EXPECT_LT(poseErrors(made.cameras, posesOf(solved), false).metres, 0.005);
+}
+
 TEST(RigCalibration, CovarianceKnowsOfTheDelays) {
-  constexpr int kRuns = 16;
+  constexpr int kRuns = 10;
   double nees = 0.0;
   for (int run = 0; run < kRuns; ++run) {
-    RecordingOptions recording = freeRunning(8.0);
+    RecordingOptions recording = freeRunning(6.0);
     recording.cameras = 3;
     const MadeRecording made = wavedLight(recording, 300 + static_cast<std::uint64_t>(run));
     std::vector<RigCamera> cameras = made.cameras;
@@ -381,8 +449,8 @@ TEST(RigCalibration, CovarianceKnowsOfTheDelays) {
         cameraPerturbation(*made.cameras[2].camera_from_world, *solved.cameras[2].camera_from_world);
     nees += e.dot(solved.cameras[2].covariance->ldlt().solve(e));
   }
-  // Standard deviation of the mean of a chi square of 6: sqrt(12 / 16) = 0.87.
-  EXPECT_NEAR(nees / kRuns, 6.0, 2.6);
+  // Standard deviation of the mean of a chi square of 6: sqrt(12 / 10) = 1.1.
+  EXPECT_NEAR(nees / kRuns, 6.0, 3.3);
 }
 
 TEST(RigCalibration, CameraThatSharesNothingIsNamed) {

@@ -1,5 +1,6 @@
 #include "engine/calibration/rig/camera_delays.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace helical {
@@ -7,6 +8,7 @@ namespace {
 
 // Twice the log-likelihood that each delay must bring: five standard deviations and a little for the search.
 constexpr double kLeastGain = 30.0;
+constexpr double kWorthPx = 2.0;
 
 double squares(std::span<const Eigen::Vector2d> residuals) {
   double sum = 0.0;
@@ -31,6 +33,22 @@ void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std
   }
 }
 
+void giveUpAdrift(SightingTable& table) {
+  std::vector<std::vector<double>> moved_px(table.late_s.size());
+  for (const Sighting& s : table.sightings) {
+    const auto c = static_cast<std::size_t>(s.camera);
+    if (s.motion.known) moved_px[c].push_back(std::abs(table.late_s[c]) * s.motion.velocity.norm());
+  }
+  std::vector<bool> misleads;
+  for (auto& each : moved_px) {
+    const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
+    std::nth_element(each.begin(), middle, each.end());
+    misleads.push_back(!each.empty() && *middle > kWorthPx);
+  }
+  for (Sighting& s : table.sightings)
+    s.adrift = !s.motion.known && misleads[static_cast<std::size_t>(s.camera)];
+}
+
 DelayNoise noiseAfterDelay(Timing timing, double periods) {
   const double square = periods * periods;
   // Pixels that were interpolated lie at any share of their two rows: the mean over it of its squared
@@ -41,11 +59,23 @@ DelayNoise noiseAfterDelay(Timing timing, double periods) {
   return {1.0 + 1.5 * square * (square - 1.0), 3.0 * periods * (2.0 * square - 1.0)};
 }
 
+double freeShare(const SightingTable& table) {
+  double residuals = 0.0, unknowns = 0.0;
+  std::int32_t item = -1;
+  for (const Sighting& s : table.sightings) {
+    if (!s.inlier) continue;
+    residuals += 2.0;
+    if (s.item != item) unknowns += table.kind == TargetKind::kBody ? 6.0 : 3.0;
+    item = s.item;
+  }
+  return residuals > 0.0 ? std::max(0.0, 1.0 - unknowns / residuals) : 0.0;
+}
+
 bool delaysAreReal(std::span<const Eigen::Vector2d> without, std::span<const Eigen::Vector2d> with,
-                   std::size_t cameras) {
+                   double free_share, std::size_t cameras) {
   const double before = squares(without), after = squares(with);
-  if (!(after > 0.0)) return before > 0.0;
-  const double gain = 2.0 * static_cast<double>(with.size()) * std::log(before / after);
+  if (!(before > 0.0) || !(after > 0.0)) return false;
+  const double gain = 2.0 * free_share * static_cast<double>(with.size()) * std::log(before / after);
   return gain > kLeastGain * static_cast<double>(cameras - 1);
 }
 

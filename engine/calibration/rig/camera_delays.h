@@ -19,6 +19,9 @@ Eigen::Vector2d pixelBefore(const Sighting& sighting, double late_s);
 /// `table.late_s`.
 void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std::span<const double> late_s);
 
+/// Marks as adrift what has no motion in cameras whose delay usually is worth more than a pixel or two.
+void giveUpAdrift(SightingTable& table);
+
 /// Variance of a pixel that was moved along its track by so many periods, over that of one that was not, and
 /// its derivative. Between two pixels their noise averages: the residuals of a camera that is moved by half a
 /// period shrink, right or wrong, and least squares alone would move all of them.
@@ -30,9 +33,13 @@ DelayNoise noiseAfterDelay(Timing timing, double periods);
 /// Delays that a track's parabola can tell: more, and what a camera saw belongs to another frame.
 constexpr double kDelayReachPeriods = 1.25;
 
+/// What share of the inliers' residuals the points' or body poses' own unknowns leave: where two cameras see
+/// a light, a quarter.
+double freeShare(const SightingTable& table);
+
 /// Whether delays explain more than chance would: residuals (seen less predicted, over their standard
-/// deviation, of the same sightings) without and with them.
+/// deviation, of the same sightings) without and with them, of which the items leave `free_share`.
 bool delaysAreReal(std::span<const Eigen::Vector2d> without, std::span<const Eigen::Vector2d> with,
-                   std::size_t cameras);
+                   double free_share, std::size_t cameras);
 
 }  // namespace helical

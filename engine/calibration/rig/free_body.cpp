@@ -8,28 +8,27 @@
 namespace helical {
 namespace {
 
-constexpr std::size_t kMostBodyPoints = 400;  // a large board; each adds three unknowns
+constexpr std::size_t kMostBodyPoints = 150;  // a large board; each adds three unknowns
 
 }  // namespace
 
 FreeBody freeBody(const SightingTable& table, std::span<const RigCamera> cameras,
                   const SelfCalibrationOptions& sigmas, const std::string& file) {
-  if (table.kind != TargetKind::kBody)
-    throw Error(ErrorKind::kInput, "without body coordinates neither points nor focal lengths can be refined", file,
-                "give columns body_x_m, body_y_m and body_z_m, or leave out --refine-markers and --refine-focal");
   FreeBody body;
   body.sigmas = sigmas;
   std::map<std::tuple<double, double, double>, int> known;
   for (const Sighting& s : table.sightings) {
-    const auto [entry, is_new] =
-        known.emplace(std::tuple(s.in_body.x(), s.in_body.y(), s.in_body.z()), static_cast<int>(known.size()));
+    const auto [entry, is_new] = known.emplace(std::tuple(s.in_body.x(), s.in_body.y(), s.in_body.z()),
+                                               static_cast<int>(known.size()));
     if (is_new) body.given.push_back(s.in_body);
     body.point.push_back(entry->second);
   }
   if (body.given.size() > kMostBodyPoints)
     throw Error(ErrorKind::kInput,
-                "the body has " + std::to_string(body.given.size()) + " different points: too many to refine", file,
-                "give each of its points the same coordinates in all rows, at most " + std::to_string(kMostBodyPoints));
+                "the body has " + std::to_string(body.given.size()) + " different points: too many to refine",
+                file,
+                "give each of its points the same coordinates in all rows, at most " +
+                    std::to_string(kMostBodyPoints));
   body.points = body.given;
   body.given_cameras.assign(cameras.begin(), cameras.end());
   body.focal_scales.assign(cameras.size(), 1.0);

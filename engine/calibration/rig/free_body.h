@@ -9,18 +9,18 @@
 
 namespace helical {
 
-/// A body's points and the cameras' focal lengths as unknowns, with what was given as their prior. The prior holds
-/// what no image tells: the body's own frame, and its size where no two given cameras set the scale.
+/// A body's points and the cameras' focal lengths as unknowns, with what was given as their prior. The prior
+/// holds what no image tells: the body's own frame, and its size where no two given cameras set the scale.
 struct FreeBody {
   SelfCalibrationOptions sigmas;
-  double sigma_px = 1.0;  ///< of a pixel, per axis: what the prior is weighed against
+  double sigma_px = 1.0;                       ///< of a pixel, per axis: what the prior is weighed against
   std::vector<Eigen::Vector3d> given, points;  ///< in the body, as given and as found
   std::vector<int> point;                      ///< of each sighting: index into those
   std::vector<RigCamera> given_cameras;
   std::vector<double> focal_scales;  ///< of each camera, over the given focal lengths
 };
 
-/// Throws Error(kInput) for a recording without body coordinates, or with too many of them for one body.
+/// Of a recording with body coordinates. Throws Error(kInput) where they are too many for one body.
 FreeBody freeBody(const SightingTable& table, std::span<const RigCamera> cameras,
                   const SelfCalibrationOptions& sigmas, const std::string& file);
 

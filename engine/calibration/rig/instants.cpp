@@ -14,6 +14,8 @@ constexpr double kLongestGap = 2.5;  // periods
 // others.
 constexpr double kUsualQuantile = 0.25, kUsualSteps = 6.0;
 constexpr double kSmallStepPx = 5.0;
+constexpr double kRestPx =
+    1.0;  // a step that is noise: where a target rests, the slower ones are none of its way
 
 double quantile(std::vector<double>& values, double fraction) {
   if (values.empty()) return 0.0;
@@ -22,8 +24,9 @@ double quantile(std::vector<double>& values, double fraction) {
   return *at;
 }
 
-bool sameTrack(const PointRow& a, const PointRow& b) {
-  return a.camera == b.camera && a.marker == b.marker;
+/// Of rows of one track. A body's points may go without names: their places in it tell them apart.
+auto trackKey(const PointRow& row, const Eigen::Vector3d& in_body) {
+  return std::tuple(row.camera, row.marker, in_body.x(), in_body.y(), in_body.z());
 }
 
 /// Which neighbours in a track belong together: neither far apart in time, nor by a jump far beyond the
@@ -35,7 +38,8 @@ class Bridge {
   Bridge(std::size_t rows, double period_s, const PixelOf& pixel_of)
       : longest_gap_s_(kLongestGap * period_s) {
     std::vector<double> steps;
-    for (std::size_t i = 1; i < rows; ++i) steps.push_back((pixel_of(i) - pixel_of(i - 1)).norm());
+    for (std::size_t i = 1; i < rows; ++i)
+      if (const double step = (pixel_of(i) - pixel_of(i - 1)).norm(); step > kRestPx) steps.push_back(step);
     largest_step_px_ = std::max(kSmallStepPx, kUsualSteps * quantile(steps, kUsualQuantile));
   }
 
@@ -139,14 +143,14 @@ std::vector<InstantRow> interpolateInTime(const PointRows& rows, double period_s
   if (rows.rows.empty() || !(period_s > 0.0)) return out;
   std::vector<std::size_t> order(rows.rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const PointRow &p = rows.rows[a], &q = rows.rows[b];
-    return p.camera != q.camera ? p.camera < q.camera : p.marker < q.marker;
-  });
+  const auto key = [&](std::size_t i) {
+    return trackKey(rows.rows[i], rows.in_body.empty() ? Eigen::Vector3d::Zero().eval() : rows.in_body[i]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   const double start = rows.rows.front().time_s;
   for (std::size_t i = 0; i < order.size();) {
     std::size_t j = i;
-    while (j < order.size() && sameTrack(rows.rows[order[i]], rows.rows[order[j]])) ++j;
+    while (j < order.size() && key(order[i]) == key(order[j])) ++j;
     interpolateTrack(rows, std::span(order).subspan(i, j - i), start, period_s, out);
     i = j;
   }
@@ -154,11 +158,7 @@ std::vector<InstantRow> interpolateInTime(const PointRows& rows, double period_s
 }
 
 void measureMotion(std::vector<InstantRow>& rows, double period_s) {
-  // A body's points may go without names: their places in it tell them apart.
-  const auto key = [&](std::size_t i) {
-    const InstantRow& r = rows[i];
-    return std::tuple(r.row.camera, r.row.marker, r.in_body.x(), r.in_body.y(), r.in_body.z());
-  };
+  const auto key = [&](std::size_t i) { return trackKey(rows[i].row, rows[i].in_body); };
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });

@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kScaleWeightPx = 100.0;
 constexpr double kLongestStep = 0.3;  // periods that a delay changes by at once: beyond, the parabola guesses
+constexpr double kRobustKeeps = 0.83;  // of the squares of Gaussian noise, Cauchy's loss at three sigmas
+constexpr double kTellingSigmas = 3.0;
 constexpr double kUnseenPx = 1000.0;  // stands for a point which the camera model cannot project
 constexpr double kGivenFocal = 1.0;   // a scale
 using Block = std::array<double, 7>;  // quaternion x y z w, translation
@@ -72,14 +75,15 @@ class BodyManifold final : public PoseManifold {
   }
 };
 
-/// Predicted less seen pixel of a body's point under a focal length that is the camera's times a scale. Parameters:
-/// camera, the body's pose, the point in the body, the scale.
+/// Predicted less seen pixel of a body's point under a focal length that is the camera's times a scale.
+/// Parameters: camera, the body's pose, the point in the body, the scale.
 class FreeBodyCost final : public ceres::SizedCostFunction<2, 7, 7, 3, 1> {
  public:
   FreeBodyCost(const CameraModel& camera, const Eigen::Vector2d& pixel) : camera_(camera), seen_(pixel) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const RigidTransform camera_from_world = toTransform(parameters[0]), world_from_body = toTransform(parameters[1]);
+    const RigidTransform camera_from_world = toTransform(parameters[0]),
+                         world_from_body = toTransform(parameters[1]);
     const Eigen::Vector3d arm = world_from_body.rotation * Eigen::Map<const Eigen::Vector3d>(parameters[2]);
     const Eigen::Vector3d point = arm + world_from_body.translation;
     const double scale = *parameters[3];
@@ -208,8 +212,7 @@ class ScaleCost final : public ceres::SizedCostFunction<1, 7> {
   double distance_;
 };
 
-/// Takes back what a delay gains by averaging noise: see noiseAfterDelay(). Also keeps the delay of a camera
-/// that saw nothing move at zero.
+/// Takes back what a delay gains by averaging noise: see noiseAfterDelay().
 class AveragingCost final : public ceres::SizedCostFunction<1, 1> {
  public:
   /// `residuals`: about how many of the camera's own.
@@ -256,7 +259,8 @@ class Bundle {
     }
     for (std::size_t row = 0; row < table.sightings.size(); ++row) addSighting(cameras, row);
     if (options.free_body != nullptr) holdNearGiven();
-    if (options_.late_s != nullptr) takeBackAveraging();
+    if (options_.late_s != nullptr && options_.take_back_averaging) takeBackAveraging();
+    if (options_.late_s != nullptr) holdDelaysOfStillViews();
     holdGauge();
   }
 
@@ -323,22 +327,29 @@ class Bundle {
     problem_.SetParameterUpperBound(late, 0, std::max(0.0, std::min(step, reach - total)));
   }
 
-  /// The items' own unknowns take up their share of the residuals.
   void takeBackAveraging() {
     std::vector<double> residuals(camera_blocks_.size(), 0.0);
-    double all = 0.0, items = 0.0;
-    for (const Sighting& s : table_.sightings) {
-      if (!s.inlier) continue;
-      residuals[static_cast<std::size_t>(s.camera)] += 2.0;
-      all += 2.0;
-    }
-    for (const Block& block : item_blocks_)
-      if (problem_.HasParameterBlock(block.data())) items += body_ ? 6.0 : 3.0;
-    const double share = all > 0.0 ? std::max(0.0, 1.0 - items / all) : 0.0;
+    for (const Sighting& s : table_.sightings)
+      if (s.inlier && s.motion.known) residuals[static_cast<std::size_t>(s.camera)] += 2.0;
+    const double share = kRobustKeeps * freeShare(table_);
     for (std::size_t c = 0; c < camera_blocks_.size(); ++c)
       if (problem_.HasParameterBlock(&late_blocks_[c]))
         problem_.AddResidualBlock(new AveragingCost(table_, c, share * residuals[c], options_.sigma_px),
                                   nullptr, &late_blocks_[c]);
+  }
+
+  /// What hardly moves in a period tells of no delay, only of how noise averages.
+  void holdDelaysOfStillViews() {
+    std::vector<std::vector<double>> steps_px(camera_blocks_.size());
+    for (const Sighting& s : table_.sightings)
+      if (s.inlier && s.motion.known)
+        steps_px[static_cast<std::size_t>(s.camera)].push_back(s.motion.velocity.norm() * table_.period_s);
+    for (std::size_t c = 0; c < steps_px.size(); ++c) {
+      if (!problem_.HasParameterBlock(&late_blocks_[c]) || steps_px[c].empty()) continue;
+      const auto middle = steps_px[c].begin() + static_cast<std::ptrdiff_t>(steps_px[c].size() / 2);
+      std::nth_element(steps_px[c].begin(), middle, steps_px[c].end());
+      if (*middle < kTellingSigmas * options_.sigma_px) problem_.SetParameterBlockConstant(&late_blocks_[c]);
+    }
   }
 
   /// A block without a sigma stays where it is.
@@ -347,7 +358,8 @@ class Bundle {
     if (!problem_.HasParameterBlock(block)) return;
     ordering_->AddElementToGroup(block, 1);
     if (sigma > 0.0)
-      problem_.AddResidualBlock(new PriorCost<kSize>(given, options_.free_body->sigma_px / sigma), nullptr, block);
+      problem_.AddResidualBlock(new PriorCost<kSize>(given, options_.free_body->sigma_px / sigma), nullptr,
+                                block);
     else
       problem_.SetParameterBlockConstant(block);
   }

@@ -15,7 +15,8 @@ struct BundleOptions {
   /// pixels of standard deviation `sigma_px`. That of the camera whose pose holds the world is zero.
   std::vector<double>* late_s = nullptr;
   double sigma_px = 0.0;
-  FreeBody* free_body = nullptr;  ///< is solved for, too
+  bool take_back_averaging = false;  ///< see noiseAfterDelay(): where residuals are noise
+  FreeBody* free_body = nullptr;     ///< is solved for, too
 };
 
 /// Bundle adjustment over the sightings that are inliers: cameras that are not fixed, and the points or body

@@ -30,7 +30,7 @@ constexpr double kFewBeyond = 0.01;  // of the sightings
 constexpr double kRobustSigmas = 3.0;
 constexpr double kTightestGatePx = 0.5;
 constexpr int kGateRounds = 4;
-constexpr int kDelayRounds = 12;
+constexpr int kDelayRounds = 12, kDelayIterations = 15;
 constexpr double kSettledPeriods = 1e-3;  // a delay that changes by less has settled
 // Interpolation averages neighbours, which makes pixels look better than they are.
 constexpr double kInterpolationFlatters = 1.2;
@@ -79,6 +79,7 @@ void gate(Solution& s, std::span<const RigCamera> cameras, double tolerance_px) 
     gateSightings(s.state, cameras, s.table, tolerance, fewestInliers(s.table));
   else
     placePoints(s.state, cameras, s.table, tolerance);
+  for (Sighting& k : s.table.sightings) k.inlier = k.inlier && !k.adrift;
 }
 
 /// Gate and bundle in turn until both have settled; plain least squares at the end.
@@ -133,8 +134,13 @@ void settleDelays(Solution& s, std::span<const RigCamera> cameras, bool knowing_
     const double sigma = sightingSigma(s.state, cameras, s.table);
     gate(s, cameras, kWideGateSigmas * sigma);
     std::vector<double> later_s(cameras.size(), 0.0);
-    adjustBundle(s.state, cameras, s.table,
-                 {kRobustSigmas * sigma, 100, false, &later_s, knowing_noise ? sigma : 0.0});
+    BundleOptions options;
+    options.robust_scale_px = kRobustSigmas * sigma;
+    options.max_iterations = kDelayIterations;
+    options.late_s = &later_s;
+    options.sigma_px = sigma;
+    options.take_back_averaging = knowing_noise;
+    adjustBundle(s.state, cameras, s.table, options);
     takeOffDelays(s.table, cameras, later_s);
     const bool settled = std::all_of(later_s.begin(), later_s.end(), [&](double later) {
       return std::abs(later) < kSettledPeriods * s.table.period_s;
@@ -146,13 +152,16 @@ void settleDelays(Solution& s, std::span<const RigCamera> cameras, bool knowing_
 /// Finds how much later than the first each camera saw, and keeps it if it explains the recording better.
 void findDelays(Solution& s, std::span<const RigCamera> cameras) {
   if (s.table.kind == TargetKind::kStillMarkers || s.state.solvedCameras() < 2) return;
+  if (!(s.table.period_s > 0.0)) return;  // one instant
   Solution timed = s;
   timed.table.late_s.assign(cameras.size(), 0.0);
   settleDelays(timed, cameras, false);
   settleDelays(timed, cameras, true);
+  giveUpAdrift(timed.table);
   refine(timed);
   const auto [without, with] = commonResiduals(s, timed, cameras);
-  if (unlikeliness(timed) < unlikeliness(s) && delaysAreReal(without, with, cameras.size()))
+  if (unlikeliness(timed) < unlikeliness(s) &&
+      delaysAreReal(without, with, freeShare(timed.table), cameras.size()))
     s = std::move(timed);
 }
 
@@ -223,7 +232,10 @@ CalibratedCamera reportCamera(const Solution& s, std::span<const RigCamera> came
   c.reprojection_rms_px = inliers > 0 ? std::sqrt(squares / static_cast<double>(inliers)) : 0.0;
   c.image_parts = static_cast<int>(parts.size());
   if (c.camera_from_world) c.distance_m = medianDistance(s, index);
-  if (!s.table.late_s.empty()) c.late_s = s.table.late_s[index];
+  if (!s.table.late_s.empty()) {
+    c.late_s = s.table.late_s[index];
+    c.beyond_reach = std::abs(c.late_s) > 0.99 * kDelayReachPeriods * s.table.period_s;
+  }
   c.covariance = covariance;
   if (covariance) {
     const auto largest = [](const Eigen::Matrix3d& block) {
@@ -268,8 +280,13 @@ std::size_t givenCount(std::span<const RigCamera> cameras) {
       cameras.begin(), cameras.end(), [](const auto& c) { return c.camera_from_world.has_value(); }));
 }
 
-void refuseContradictingScales(std::span<const RigCamera> cameras, const PointRows& rows,
-                               const RigCalibrationOptions& options) {
+void refuseContradictions(std::span<const RigCamera> cameras, const PointRows& rows, const std::string& file,
+                          const RigCalibrationOptions& options) {
+  if (options.self.any() && rows.in_body.empty())
+    throw Error(ErrorKind::kInput, "without body coordinates neither points nor focal lengths can be refined",
+                file,
+                "give columns body_x_m, body_y_m and body_z_m, or leave out --refine-markers and "
+                "--refine-focal");
   if (!options.scale) return;
   if (!rows.in_body.empty())
     throw Error(ErrorKind::kInput, "the body coordinates set the scale already", "--scale",
@@ -283,7 +300,7 @@ void refuseContradictingScales(std::span<const RigCamera> cameras, const PointRo
 
 RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, const std::string& file,
                             const RigCalibrationOptions& options, const ProgressCallback& progress) {
-  refuseContradictingScales(cameras, rows, options);
+  refuseContradictions(cameras, rows, file, options);
   const std::size_t given = givenCount(cameras);
   Solution s = solveLikeliest(bringTogether(std::move(rows), cameras, file), cameras, options, progress);
   const bool body = s.table.kind == TargetKind::kBody;
@@ -293,13 +310,14 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
                       : given > 1     ? "given camera poses"
                       : options.scale ? "the given distance of two cameras"
                                       : "nothing: lengths are in arbitrary units";
+  // Before the given poses are looked at: a wrong focal length is not to be laid at their door.
+  if (options.self.any()) {
+    s.body = freeBody(s.table, cameras, options.self, file);
+    refine(s);
+  }
   const GivenPoseError off = alignToGiven(s.state, cameras, body, options.scale);
   if (given > 0) {
     fixGiven(s.state, cameras);
-    refine(s);
-  }
-  if (options.self.any()) {
-    s.body = freeBody(s.table, cameras, options.self, file);
     refine(s);
   }
   if (options.scale) alignToGiven(s.state, cameras, false, options.scale);

@@ -39,11 +39,12 @@ struct CalibratedCamera {
   long rejected = 0;
   double position_sigma_m = 0.0;  ///< largest axis
   double orientation_sigma_deg = 0.0;
-  double distance_m = 0.0;  ///< median, to what it saw
-  int image_parts = 0;      ///< of 16 parts of the image, those with inliers
-  double late_s = 0.0;      ///< it saw so much later than its time stamps say, against the first one
-  double focal_scale = 1.0;  ///< over the given focal lengths
-  double focal_sigma = 0.0;  ///< of that; 0: it is given
+  double distance_m = 0.0;    ///< median, to what it saw
+  int image_parts = 0;        ///< of 16 parts of the image, those with inliers
+  double late_s = 0.0;        ///< it saw so much later than its time stamps say, against the first one
+  bool beyond_reach = false;  ///< or even later: more than a frame cannot be told
+  double focal_scale = 1.0;   ///< over the given focal lengths
+  double focal_sigma = 0.0;   ///< of that; 0: it is given
 };
 
 /// A point of the target's body, where points are solved for.
@@ -73,11 +74,11 @@ struct RigCalibration {
 };
 
 /// Every pose that `cameras` leave out, from a recording. World: that of given poses, else the first camera's
-/// frame. Scale: two or more given poses, body coordinates, `options.scale`, else arbitrary. With `options.self`
-/// a body's points and the focal lengths are solved for, too, near what was given; the world is then the same, and
-/// the body's frame and, without two given poses, its size are held by the priors alone. Throws
-/// Error(kInput) for scales that contradict each other and recordings without rows of the same time;
-/// everything else that is wrong with a recording makes the verdict bad. Repeats bit for bit.
+/// frame. Scale: two or more given poses, body coordinates, `options.scale`, else arbitrary. With
+/// `options.self` a body's points and the focal lengths are solved for, too, near what was given; the world
+/// is then the same, and the body's frame and, without two given poses, its size are held by the priors
+/// alone. Throws Error(kInput) for scales that contradict each other and recordings without rows of the same
+/// time; everything else that is wrong with a recording makes the verdict bad. Repeats bit for bit.
 RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, const std::string& file,
                             const RigCalibrationOptions& options, const ProgressCallback& progress = {});
 

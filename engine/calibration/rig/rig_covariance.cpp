@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kSmallestEigenvalue = 1e-12;  // over the largest: below it a direction is open
 
-/// Normal equations of the cameras, and of a free body's points and focal lengths, with each item eliminated (Schur
-/// complement).
+/// Normal equations of the cameras, and of a free body's points and focal lengths, with each item eliminated
+/// (Schur complement).
 class ReducedSystem {
  public:
   ReducedSystem(const RigState& state, std::span<const RigCamera> cameras, const SightingTable& table,
@@ -40,7 +40,8 @@ class ReducedSystem {
     information = Eigen::MatrixXd::Zero(columns_, columns_);
     // As in the bundle: the delay of a camera that saw nothing move is not open.
     if (stride_ > 6)
-      for (int k = 6; k < first_free_; k += stride_) information(k, k) = 1.0 / (table.period_s * table.period_s);
+      for (int k = 6; k < first_free_; k += stride_)
+        information(k, k) = 1.0 / (table.period_s * table.period_s);
     const auto starts = itemStarts(table);
     for (std::size_t i = 0; i < static_cast<std::size_t>(table.items); ++i) addItem(starts[i], starts[i + 1]);
   }
@@ -53,6 +54,7 @@ class ReducedSystem {
   int place(std::size_t camera) const { return place_[camera] < 0 ? -1 : stride_ * place_[camera]; }
   int stride() const { return stride_; }
   int size() const { return columns_; }
+  bool hasCameras() const { return unknown_ > 0; }
   /// Of those that have no prior.
   int sizeOfCameras() const { return first_free_; }
   int focalColumn(std::size_t camera) const { return focal_column_[camera]; }
@@ -75,7 +77,8 @@ class ReducedSystem {
     Eigen::MatrixXd derivatives;
   };
 
-  std::vector<Part> partsOf(std::size_t row, const SightingDerivatives& d, const Eigen::Vector2d& from_centre) const {
+  std::vector<Part> partsOf(std::size_t row, const SightingDerivatives& d,
+                            const Eigen::Vector2d& from_centre) const {
     const Sighting& s = table_.sightings[row];
     const auto camera = static_cast<std::size_t>(s.camera);
     std::vector<Part> parts;
@@ -157,7 +160,7 @@ Eigen::MatrixXd gauge(const ReducedSystem& system, const RigState& state,
       if (state.fixed[c]) return false;
     return true;
   }();
-  const int held = frame ? system.stride() : 0;
+  const int held = frame && system.hasCameras() ? system.stride() : 0;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(held + (distance ? 1 : 0), system.size());
   rows.topLeftCorner(held, held).setIdentity();
   if (distance) {

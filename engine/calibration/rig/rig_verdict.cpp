@@ -13,7 +13,7 @@ constexpr double kGoodRms = 0.0025, kUsableRms = 0.008;
 constexpr double kGoodPlace = 0.005, kUsablePlace = 0.03;
 constexpr double kGoodRejected = 0.15, kUsableRejected = 0.5;
 constexpr long kGoodObservations = 60, kUsableObservations = 20;
-constexpr int kGoodParts = 4;  // of 16
+constexpr int kGoodParts = 4;       // of 16
 constexpr double kFarSigmas = 4.0;  // of a prior
 constexpr double kGoodGivenDeg = 0.5, kUsableGivenDeg = 2.0;
 constexpr double kGoodGivenShare = 0.01, kUsableGivenShare = 0.05;
@@ -45,19 +45,22 @@ class Judge {
   RigCalibration& calibration_;
 };
 
-/// Where something is this far off, its prior was too narrow, or it makes up for something else that is wrong.
+/// Where something is this far off, its prior was too narrow, or it makes up for something else that is
+/// wrong.
 void judgeSelf(Judge& judge, const RigCalibration& calibration) {
   for (const CalibratedCamera& c : calibration.cameras)
     if (std::abs(c.focal_scale - 1.0) > kFarSigmas * calibration.self.focal_sigma && c.focal_scale != 1.0)
-      judge.reasonFor(RigVerdict::kUsable, "the focal length of camera " + c.label + " came out " +
-                                            number(100.0 * (c.focal_scale - 1.0), 2) +
-                                            " % off, more than --refine-focal expects: calibrate its intrinsics");
+      judge.reasonFor(RigVerdict::kUsable,
+                      "the focal length of camera " + c.label + " came out " +
+                          number(100.0 * (c.focal_scale - 1.0), 2) +
+                          " % off, more than --refine-focal expects: calibrate its intrinsics");
   double farthest = 0.0;
   for (const CalibratedPoint& p : calibration.points)
     farthest = std::max(farthest, (p.found - p.given).cwiseAbs().maxCoeff());
   if (!calibration.points.empty() && farthest > kFarSigmas * calibration.self.marker_sigma_m)
-    judge.reasonFor(RigVerdict::kUsable, "a point of the body came out " + number(1e3 * farthest, 1) +
-                                          " mm off, more than --refine-markers expects: see to the body coordinates");
+    judge.reasonFor(RigVerdict::kUsable,
+                    "a point of the body came out " + number(1e3 * farthest, 1) +
+                        " mm off, more than --refine-markers expects: see to the body coordinates");
 }
 
 void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camera, bool metric) {
@@ -80,17 +83,25 @@ void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camer
   judge.limit(
       static_cast<double>(c.rejected) / static_cast<double>(c.observations), kGoodRejected, kUsableRejected,
       std::to_string(c.rejected) + " of " + std::to_string(c.observations) + " observations of " + who +
-          " were rejected: something else than the target was seen, or its intrinsics are wrong");
+          " were rejected: something else than the target was seen, its intrinsics are wrong, or its time "
+          "stamps are "
+          "more than a frame off");
   judge.limit(c.reprojection_rms_px / camera.model.width(), kGoodRms, kUsableRms,
               who + " misses by " + number(c.reprojection_rms_px, 2) +
                   " px rms: see to its intrinsics, its focus, and that clocks and columns are right");
+  if (c.beyond_reach)
+    judge.reasonFor(RigVerdict::kUsable,
+                    who +
+                        " saw more than a frame later or earlier than its time stamps say: "
+                        "correct them, or trigger the cameras together");
   if (c.image_parts < kGoodParts)
-    judge.reasonFor(RigVerdict::kUsable, who + " saw the target in " + std::to_string(c.image_parts) +
-                                          " of 16 parts of its image only: move it through the whole image");
+    judge.reasonFor(RigVerdict::kUsable,
+                    who + " saw the target in " + std::to_string(c.image_parts) +
+                        " of 16 parts of its image only: move it through the whole image");
   if (c.given) return;
   if (!c.covariance)
     return judge.reasonFor(RigVerdict::kBad, "the recording leaves the place of " + who +
-                                              " open: move the target in depth and sideways");
+                                                 " open: move the target in depth and sideways");
   judge.limit(
       c.position_sigma_m / std::max(1e-9, c.distance_m), kGoodPlace, kUsablePlace,
       who + "'s place is known to " + number(100.0 * c.position_sigma_m / std::max(1e-9, c.distance_m), 1) +

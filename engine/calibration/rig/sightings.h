@@ -32,6 +32,8 @@ struct Sighting {
   Eigen::Vector3d in_body = Eigen::Vector3d::Zero();  ///< metres; of a body's point
   PixelMotion motion;                                 ///< along the camera's own track
   bool inlier = false;
+  bool adrift =
+      false;  ///< its camera saw later, and its motion is not known: where it was at its stamp nobody knows
 };
 
 /// How rows of cameras that were not exposed at the same instants are brought together.

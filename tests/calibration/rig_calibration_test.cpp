@@ -367,7 +367,7 @@ TEST(RigCalibration, DelaysAreFoundAmongFalseCentroids) {
 }
 
 TEST(RigCalibration, DelaysBetweenCamerasAreFoundByABoard) {
-  const RecordingOptions recording = freeRunning(2.0);
+  const RecordingOptions recording = freeRunning(4.0);
   const MadeRecording made = wavedBoard(recording, 22);
   const RigCalibration solved = solve(made.unposed(), made.rows);
   EXPECT_EQ(solved.verdict, RigVerdict::kGood) << reasonsOf(solved);

@@ -251,17 +251,21 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--refine", arguments->refine_at_s,
-                      "T: solve for all cameras together from what they saw up to T [s]")
-      ->check(CLI::NonNegativeNumber);
+  CLI::Option* refine =
+      command
+          ->add_option("--refine", arguments->refine_at_s,
+                       "T: solve for all cameras together from what they saw up to T [s]")
+          ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--refine-markers", arguments->refine_markers_m,
                    "METRES: refinements also find balls that are off the rig's places, by about so much per axis")
-      ->check(CLI::Range(0.0, 0.02));
+      ->check(CLI::Range(0.0, 0.02))
+      ->needs(refine);
   command
       ->add_option("--refine-focal", arguments->refine_focal,
                    "SHARE: refinements also find focal lengths that are off the rig's, by about so much")
-      ->check(CLI::Range(0.0, 0.1));
+      ->check(CLI::Range(0.0, 0.1))
+      ->needs(refine);
   command->add_option("--calibration", arguments->calibration,
                       "Cameras stand where this file says, which --save-calibration wrote");
   command->add_option("--save-calibration", arguments->save_calibration,

@@ -29,6 +29,7 @@ class GrowingGaussNewton final : public ExtrinsicCalibrator {
   void correct(const CameraModel& camera, const MarkerLayout& markers) override {
     camera_ = camera;
     markers_ = markers;
+    search_.correct(camera, markers);
   }
   void step(const CalibrationFrame& frame) override;
   CameraEstimate estimate() const override { return estimate_; }

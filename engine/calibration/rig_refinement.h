@@ -69,8 +69,8 @@ class RigRefinement {
     kUnsound,    ///< something else is wrong
   };
   Correction correction() const { return correction_; }
-  /// Whether what happens to one camera now spoils the run for all.
-  bool corrects() const { return running() && options_.self.any(); }
+  /// Whether it takes part in a run that goes on: what happens to it now spoils the run for all.
+  bool uses(CameraId camera) const { return running() && start_[static_cast<std::size_t>(camera.index())].used; }
   /// What is flown with.
   const MarkerLayout& markers() const { return markers_; }
   double focalScale(CameraId camera) const { return focal_scales_[static_cast<std::size_t>(camera.index())]; }

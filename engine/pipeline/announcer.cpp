@@ -188,12 +188,14 @@ void Announcer::announceRefinement(const EngineSnapshot& now, const Sink& raise)
       return raise(event(now.time, Severity::kGood, "Refined: images ask for no other balls and focal lengths"));
     case RefinementOutcome::kUnsound:
       return raise(event(now.time, Severity::kCaution,
-                         "Refined cameras alone: no balls or focal lengths within their sigmas fit the images"));
+                         "Refined cameras alone: no balls or focal lengths that marker_sigma_m and "
+                         "focal_sigma allow fit the images"));
     case RefinementOutcome::kNoAnswer:
       return raise(event(now.time, Severity::kCaution, "Refinement without an answer: nothing is changed"));
     case RefinementOutcome::kOvertaken:
       return raise(event(now.time, Severity::kCaution,
-                         "Refinement broken off: a camera's place was changed meanwhile; nothing else is"));
+                         "Refinement broken off: a camera was moved, frozen or placed meanwhile; nothing was "
+                         "changed. Ask again"));
   }
 }
 

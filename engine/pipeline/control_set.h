@@ -108,6 +108,7 @@ class ControlSet {
   /// Its pose is told by others from here on.
   void leaveRefinement(std::size_t camera);
   void correctFromRefinement();
+  void learnAnew(std::size_t camera);
   void setFocalScale(std::size_t camera, double scale);
   /// What it saw so far tells refinements nothing.
   void forgetViews(std::size_t camera);
@@ -116,7 +117,7 @@ class ControlSet {
   std::size_t cameras_;
   std::vector<CameraModel> models_, rig_models_;
   MarkerLayout markers_, rig_markers_;
-  bool corrected_ = false;          ///< at any time
+  bool corrected_ = false;          ///< by a refinement, at any time
   bool fresh_correction_ = false;   ///< that the tracker does not know of yet
   RefinementReport report_;
   bool learn_from_own_pose_;

@@ -71,7 +71,8 @@ const char* ControlSet::startRefinement() {
     part.estimate = estimates_[i];
     part.frozen = frozen_[i];
     part.holds = estimates_[i].status == CameraStatus::kCalibrated && !learning_[i];
-    part.used = part.holds || (learning_[i] && calibrations_[i]->calibrator().namesCentroids() &&
+    // One that learns and is frozen could not follow what is found.
+    part.used = part.holds || (learning_[i] && !frozen_[i] && calibrations_[i]->calibrator().namesCentroids() &&
                                calibrations_[i]->calibrator().knowsItsPlace());
   }
   const char* refusal = refinement_->start({parts.data(), cameras_});
@@ -81,8 +82,9 @@ const char* ControlSet::startRefinement() {
 }
 
 void ControlSet::leaveRefinement(std::size_t camera) {
-  // Balls and focal lengths that were solved for with another pose of this camera would not be true with this one.
-  if (refining_[camera] && refinement_->corrects()) {
+  // What was solved for with another pose of this camera would not be true with this one, though it only held the
+  // world for the others.
+  if (refinement_->uses(cameraId(static_cast<int>(camera)))) {
     refinement_->stop();
     endRefinement(RefinementOutcome::kOvertaken);
   }
@@ -130,7 +132,16 @@ void ControlSet::correctFromRefinement() {
     detectors_[i] = KnockDetector();
   }
   for (const auto& teacher : teachers_) teacher->correct(markers_, models_);
-  corrected_ = fresh_correction_ = true;
+  fresh_correction_ = true;
+}
+
+/// What it has learnt so far it learnt from other balls. A frozen one stays where it is until it is resumed.
+void ControlSet::learnAnew(std::size_t camera) {
+  calibrations_[camera]->restart(estimates_[camera].camera_from_world, CameraStatus::kCalibrating);
+  bounds_[camera].restart();
+  if (frozen_[camera]) return;
+  estimates_[camera] = calibrations_[camera]->estimate();
+  refined_[camera] = false;
 }
 
 /// Cameras that are known as well by it as they were, or better. One that learns goes on from there. Where balls or
@@ -139,17 +150,23 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
   const double reach_m = AdmissionOptions().reach_m;
   const RigRefinement::Correction correction = refinement_->correction();
   const bool corrects = correction == RigRefinement::Correction::kFound;
-  if (corrects) correctFromRefinement();
+  if (corrects) {
+    correctFromRefinement();
+    corrected_ = true;
+  }
   for (std::size_t i = 0; i < cameras_; ++i) {
-    if (!refining_[i]) continue;
+    CameraEstimate found;
+    if (refining_[i]) found = refinement_->answer(cameraId(static_cast<int>(i)));
     refining_[i] = false;
-    const CameraEstimate found = refinement_->answer(cameraId(static_cast<int>(i)));
-    if (found.status != CameraStatus::kCalibrated) continue;
+    if (found.status != CameraStatus::kCalibrated) {
+      if (corrects && learning_[i]) learnAnew(i);
+      continue;
+    }
     const double doubt = uncertaintyAround(models_[i], found, helicopter_in_world, reach_m);
     const bool admissible = usable_[i] || doubt < AdmissionOptions().admit_uncertainty_m;
     const double alone = uncertaintyAround(models_[i], estimates_[i], helicopter_in_world, reach_m);
     if (!corrects && (!admissible || doubt > kWorseThanAlone * alone)) continue;
-    if (!admissible) {
+    if (!admissible && learning_[i]) {
       calibrations_[i]->restart(found.camera_from_world, estimates_[i].status);
       estimates_[i] = calibrations_[i]->estimate();
       continue;
@@ -161,9 +178,10 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
       place(i, found);
     refined_[i] = true;
   }
+  if (!corrects && !refinement_->succeeded()) return endRefinement(RefinementOutcome::kNoAnswer);
   switch (correction) {
     case RigRefinement::Correction::kNotSought:
-      return endRefinement(refinement_->succeeded() ? RefinementOutcome::kCameras : RefinementOutcome::kNoAnswer);
+      return endRefinement(RefinementOutcome::kCameras);
     case RigRefinement::Correction::kFound:
       return endRefinement(RefinementOutcome::kCorrected);
     case RigRefinement::Correction::kNotNeeded:

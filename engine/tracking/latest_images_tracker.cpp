@@ -38,6 +38,7 @@ void LatestImagesTracker::correct(const MarkerLayout& markers, std::span<const C
   markers_ = markers;
   std::copy(cameras.begin(), cameras.end(), cameras_.begin());
   acquisition_.correct(markers, cameras);
+  corrected_ = true;
 }
 
 void LatestImagesTracker::adopt(const Tracker& other) {
@@ -168,7 +169,8 @@ void LatestImagesTracker::synchronise(std::size_t camera, const CameraEstimate& 
 void LatestImagesTracker::moveTo(const PoseFit& fit, TimeNs time) {
   const double elapsed = toSeconds(time - pose_time_);
   const RigidTransform& last = state_.world_from_body;
-  const double gain = 1.0 - std::exp(-elapsed / kVelocityS);
+  const double gain = corrected_ ? 0.0 : 1.0 - std::exp(-elapsed / kVelocityS);
+  corrected_ = false;
   const Eigen::Vector3d velocity = (fit.world_from_body.translation - last.translation) / elapsed;
   const Eigen::Vector3d spin = logSO3(last.rotation.conjugate() * fit.world_from_body.rotation) / elapsed;
   state_.velocity_in_world += gain * (velocity - state_.velocity_in_world);

@@ -58,6 +58,7 @@ class LatestImagesTracker final : public Tracker {
   std::array<Observation, kMaxCameras> moved_;       ///< scratch: images at one time
 
   bool acquired_ = false;
+  bool corrected_ = false;  ///< since the last pose: the next one's step is no motion
   TimeNs pose_time_ = 0;
   HelicopterState state_;
   Matrix6d covariance_ = Matrix6d::Identity();

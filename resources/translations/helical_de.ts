@@ -2476,16 +2476,16 @@ m/s</translation>
         <translation>Nachbestimmt: die Bilder verlangen keine anderen Kugeln und Brennweiten</translation>
     </message>
     <message>
-        <source>Refined cameras alone: no balls or focal lengths within their sigmas fit the images</source>
-        <translation>Nur Kameras nachbestimmt: keine Kugeln oder Brennweiten in ihren Grenzen passen zu den Bildern</translation>
+        <source>Refined cameras alone: no balls or focal lengths that marker_sigma_m and focal_sigma allow fit the images</source>
+        <translation>Nur Kameras nachbestimmt: keine Kugeln oder Brennweiten, die marker_sigma_m und focal_sigma zulassen, passen zu den Bildern</translation>
     </message>
     <message>
         <source>Refinement without an answer: nothing is changed</source>
         <translation>Nachbestimmung ohne Ergebnis: nichts ist geändert</translation>
     </message>
     <message>
-        <source>Refinement broken off: a camera's place was changed meanwhile; nothing else is</source>
-        <translation>Nachbestimmung abgebrochen: der Ort einer Kamera wurde inzwischen geändert, sonst nichts</translation>
+        <source>Refinement broken off: a camera was moved, frozen or placed meanwhile; nothing was changed. Ask again</source>
+        <translation>Nachbestimmung abgebrochen: eine Kamera wurde inzwischen bewegt, eingefroren oder gesetzt; nichts wurde geändert. Bitte neu anfordern</translation>
     </message>
     <message>
         <source>too little was seen by two cameras at a time yet</source>

@@ -123,6 +123,7 @@ class Errors(unittest.TestCase):
         self.assert_refused(run("fly", "--marker-error", "1"))
         self.assert_refused(run("fly", "--refine-markers", "1"))
         self.assert_refused(run("fly", "--refine-focal", "-0.1"))
+        self.assert_refused(run("fly", "--refine-focal", "0.01"), "--refine-focal requires --refine")
         self.assert_refused(run("fly", "--no-images", "--calibrator", "kalman"), "kalman", "joint")
         self.assert_refused(run("fly", "--initial-error", "15"))
         self.assert_refused(run("loop"))

@@ -27,9 +27,10 @@ constexpr std::uint64_t kSeeds = 4;
 
 using OnTick = std::function<void(LockStep&, const EngineSnapshot&)>;
 
-CalibrationOrder refine() {
+CalibrationOrder orderFor(int camera, CalibrationOrderKind kind) {
   CalibrationOrder order;
-  order.kind = CalibrationOrderKind::kRefine;
+  order.camera = cameraId(camera);
+  order.kind = kind;
   return order;
 }
 
@@ -42,7 +43,7 @@ struct SelfCalibratedFlight {
     for (int i = 0; i < kEnd; ++i) {
       OperatorCommands commands;
       commands.arm = commands.take_off = i == kTicksPerSecond;
-      if (refines && i == kRefineAt) refusal = lock_step.orderCalibration(refine());
+      if (refines && i == kRefineAt) refusal = lock_step.orderCalibration(orderFor(0, CalibrationOrderKind::kRefine));
       now = lock_step.tick(commands);
       if (on_tick) on_tick(lock_step, now);
       if (i > kRefineAt) longest_without_pose_s = std::max(longest_without_pose_s, toSeconds(now.pose_age));
@@ -192,13 +193,52 @@ TEST(SelfCalibration, ACameraThatIsFrozenMeanwhileBreaksItOff) {
   const SelfCalibratedFlight broken(rig, true, "hover", [&](LockStep& flight, const EngineSnapshot& now) {
     if (++tick != kRefineAt + 5) return;
     EXPECT_EQ(now.refinement.ended, 0u);
-    CalibrationOrder freeze;
-    freeze.camera = cameraId(2);
-    EXPECT_EQ(flight.orderCalibration(freeze), nullptr);
+    EXPECT_EQ(flight.orderCalibration(orderFor(2, CalibrationOrderKind::kFreeze)), nullptr);
   });
   EXPECT_EQ(broken.now.refinement.outcome, RefinementOutcome::kOvertaken);
   EXPECT_EQ(broken.now.refinement.ended, 1u);
   EXPECT_TRUE(std::ranges::equal(broken.now.markers.all(), rig.markers_in_body.all()));
+}
+
+TEST(SelfCalibration, AFrozenCameraThatHoldsTheWorldAndIsPlacedMeanwhileBreaksItOff) {
+  RigConfig rig = rigThatCorrects(1, 1e-3, 0.0);
+  rig.simulation.marker_error_m = 1e-3;
+  int tick = 0;
+  const SelfCalibratedFlight broken(rig, true, "hover", [&](LockStep& flight, const EngineSnapshot& now) {
+    if (++tick == kRefineAt - 5) flight.orderCalibration(orderFor(0, CalibrationOrderKind::kFreeze));
+    if (tick != kRefineAt + 5) return;
+    EXPECT_EQ(now.refinement.ended, 0u);
+    EXPECT_EQ(flight.orderCalibration(orderFor(0, CalibrationOrderKind::kTrustRig)), nullptr);
+  });
+  EXPECT_EQ(broken.now.refinement.outcome, RefinementOutcome::kOvertaken);
+  EXPECT_TRUE(std::ranges::equal(broken.now.markers.all(), rig.markers_in_body.all()));
+}
+
+TEST(SelfCalibration, AFrozenLearnerStaysWhereItIsAndLearnsAnewFromTheBallsThatWereFound) {
+  RigConfig rig = rigThatCorrects(1, 1e-3, 0.0);
+  rig.simulation.marker_error_m = 1e-3;
+  Eigen::Vector3d frozen;
+  int tick = 0, resumed_at = 0;
+  double error_before = 0.0;
+  const SelfCalibratedFlight flown(rig, true, "hover", [&](LockStep& flight, const EngineSnapshot& now) {
+    const CameraSnapshot& camera = now.cameras[2];
+    if (++tick == kRefineAt - 5) flight.orderCalibration(orderFor(2, CalibrationOrderKind::kFreeze));
+    if (tick == kRefineAt) frozen = camera.estimate.camera_from_world.translation;
+    if (resumed_at > 0 && tick == resumed_at + 5) {
+      EXPECT_EQ(camera.estimate.status, CameraStatus::kCalibrating);
+    }
+    if (resumed_at > 0 || now.refinement.ended == 0) return;
+    EXPECT_EQ(now.refinement.outcome, RefinementOutcome::kCorrected);
+    EXPECT_EQ(camera.estimate.status, CameraStatus::kCalibrated);
+    EXPECT_EQ(camera.estimate.camera_from_world.translation, frozen);
+    error_before = cameraError(camera.estimate.camera_from_world, camera.true_camera_from_world).position;
+    flight.orderCalibration(orderFor(2, CalibrationOrderKind::kResume));
+    resumed_at = tick;
+  });
+  ASSERT_GT(resumed_at, 0);
+  EXPECT_EQ(flown.now.cameras[2].estimate.status, CameraStatus::kCalibrated);
+  std::printf("camera 3 off by %.2f mm, learnt anew %.2f mm\n", 1e3 * error_before, 1e3 * flown.errorOfCamera3());
+  EXPECT_LT(flown.errorOfCamera3(), 0.5 * error_before);
 }
 
 TEST(SelfCalibration, WhatWasFoundIsSavedAndFliesFromTheStartInTheSameField) {

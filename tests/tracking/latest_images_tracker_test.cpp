@@ -111,6 +111,23 @@ TEST(LatestImagesTracker, FindsItselfAgainAfterAGap) {
   EXPECT_LT(watch.worstUntil(6.0), 0.01);
 }
 
+TEST(LatestImagesTracker, TakesNoCorrectionForMotion) {
+  Watch watch;
+  watch.worstUntil(3.0);
+  RigidTransform shift;
+  shift.translation.z() = 0.05;
+  for (CameraEstimate& camera : watch.believed) camera.camera_from_world = camera.camera_from_world * shift;
+  watch.tracker.correct(watch.field.markers, watch.field.models);
+  double fastest = 0.0;
+  while (watch.now < 3.1) {
+    watch.observe();
+    const TrackedState now = watch.tracker.predict(fromSeconds(watch.now), true);
+    fastest = std::max(fastest, now.state.velocity_in_world.norm());
+  }
+  EXPECT_NEAR(watch.error(), 0.05, 0.01);
+  EXPECT_LT(fastest, 0.5);
+}
+
 TEST(LatestImagesTracker, PredictsForAShortWhileOnly) {
   Watch watch;
   watch.worstUntil(4.0);

@@ -21,6 +21,7 @@ EngineSnapshot snapshotFromAbove(const RigConfig& rig) {
   EngineSnapshot snapshot;
   snapshot.time = kTick;
   snapshot.camera_count = 1;
+  snapshot.markers = rig.markers_in_body;
   snapshot.marker_count = rig.markers_in_body.count();
   snapshot.pose_known = true;
   CameraSnapshot& camera = snapshot.cameras[0];

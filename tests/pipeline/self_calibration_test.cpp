@@ -186,32 +186,36 @@ TEST(SelfCalibration, BallsThatAreFartherOffThanTheyMayBeStayAndItIsSaid) {
   EXPECT_TRUE(std::ranges::equal(refined.now.markers.all(), rig.markers_in_body.all()));
 }
 
-TEST(SelfCalibration, ACameraThatIsFrozenMeanwhileBreaksItOff) {
+struct TimedOrder {
+  int tick;
+  CalibrationOrder order;
+};
+
+/// Each order is taken, the last one while the refinement runs, which then is broken off and changes nothing.
+void expectBrokenOffBy(const std::vector<TimedOrder>& orders) {
   RigConfig rig = rigThatCorrects(1, 1e-3, 0.0);
   rig.simulation.marker_error_m = 1e-3;
   int tick = 0;
   const SelfCalibratedFlight broken(rig, true, "hover", [&](LockStep& flight, const EngineSnapshot& now) {
-    if (++tick != kRefineAt + 5) return;
-    EXPECT_EQ(now.refinement.ended, 0u);
-    EXPECT_EQ(flight.orderCalibration(orderFor(2, CalibrationOrderKind::kFreeze)), nullptr);
+    ++tick;
+    for (const TimedOrder& each : orders)
+      if (tick == each.tick) {
+        EXPECT_EQ(now.refinement.ended, 0u);
+        EXPECT_EQ(flight.orderCalibration(each.order), nullptr);
+      }
   });
   EXPECT_EQ(broken.now.refinement.outcome, RefinementOutcome::kOvertaken);
   EXPECT_EQ(broken.now.refinement.ended, 1u);
   EXPECT_TRUE(std::ranges::equal(broken.now.markers.all(), rig.markers_in_body.all()));
 }
 
+TEST(SelfCalibration, ACameraThatIsFrozenMeanwhileBreaksItOff) {
+  expectBrokenOffBy({{kRefineAt + 5, orderFor(2, CalibrationOrderKind::kFreeze)}});
+}
+
 TEST(SelfCalibration, AFrozenCameraThatHoldsTheWorldAndIsPlacedMeanwhileBreaksItOff) {
-  RigConfig rig = rigThatCorrects(1, 1e-3, 0.0);
-  rig.simulation.marker_error_m = 1e-3;
-  int tick = 0;
-  const SelfCalibratedFlight broken(rig, true, "hover", [&](LockStep& flight, const EngineSnapshot& now) {
-    if (++tick == kRefineAt - 5) flight.orderCalibration(orderFor(0, CalibrationOrderKind::kFreeze));
-    if (tick != kRefineAt + 5) return;
-    EXPECT_EQ(now.refinement.ended, 0u);
-    EXPECT_EQ(flight.orderCalibration(orderFor(0, CalibrationOrderKind::kTrustRig)), nullptr);
-  });
-  EXPECT_EQ(broken.now.refinement.outcome, RefinementOutcome::kOvertaken);
-  EXPECT_TRUE(std::ranges::equal(broken.now.markers.all(), rig.markers_in_body.all()));
+  expectBrokenOffBy({{kRefineAt - 5, orderFor(0, CalibrationOrderKind::kFreeze)},
+                     {kRefineAt + 5, orderFor(0, CalibrationOrderKind::kTrustRig)}});
 }
 
 TEST(SelfCalibration, AFrozenLearnerStaysWhereItIsAndLearnsAnewFromTheBallsThatWereFound) {

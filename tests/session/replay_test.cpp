@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <thread>
 
 #include "engine/base/error.h"
@@ -21,16 +22,26 @@ using test::TemporaryFolder;
 
 constexpr int kTicks = 900;  // 15 s: take-off and hover
 
-void record(const std::filesystem::path& file, const SessionSettings& settings) {
+/// Flies and records; `before_tick` gives the operator's orders. The last state.
+EngineSnapshot record(const std::filesystem::path& file, const SessionSettings& settings,
+                      const std::function<void(int, LockStep&)>& before_tick) {
   Recorder recorder(file, settings, Recorder::WhenFull::kWait);
   LockStep flight(settings.rig, settings.plan, &recorder);
-  OperatorCommands commands;
+  EngineSnapshot last;
   for (int i = 0; i < kTicks; ++i) {
+    OperatorCommands commands;
     commands.arm = commands.take_off = i == 60;
+    before_tick(i, flight);
+    last = flight.tick(commands);
+  }
+  return last;
+}
+
+void record(const std::filesystem::path& file, const SessionSettings& settings) {
+  record(file, settings, [](int i, LockStep& flight) {
     if (i == 500) flight.hideCamera(cameraId(1), true);
     if (i == 560) flight.hideCamera(cameraId(1), false);
-    flight.tick(commands);
-  }
+  });
 }
 
 SessionSettings settingsOf(const McapReader& session) {
@@ -45,22 +56,14 @@ Replay replayed(const std::filesystem::path& file, const ReplayChanges& changes 
 TEST(Replay, ChangesOfPlanAndGainsInFlightAreRepeatedBitForBit) {
   const TemporaryFolder folder;
   const SessionSettings settings = test::hoverSettings(5);
-  {
-    Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kWait);
-    LockStep flight(settings.rig, settings.plan, &recorder);
-    OperatorCommands commands;
-    for (int i = 0; i < kTicks; ++i) {
-      commands.arm = commands.take_off = i == 60;
-      if (i == 500) {
-        FlightChange change{settings.plan, settings.rig.control};
-        change.plan->waypoints = {{{0.1, 0.2, 0.7}, 0.1, 0.0, 1.0 / 3.0}};
-        change.control->position_p = 1.2;
-        change.control->trim_roll = 0.01;
-        flight.change(change);
-      }
-      flight.tick(commands);
-    }
-  }
+  record(folder / "a.mcap", settings, [&](int i, LockStep& flight) {
+    if (i != 500) return;
+    FlightChange change{settings.plan, settings.rig.control};
+    change.plan->waypoints = {{{0.1, 0.2, 0.7}, 0.1, 0.0, 1.0 / 3.0}};
+    change.control->position_p = 1.2;
+    change.control->trim_roll = 0.01;
+    flight.change(change);
+  });
   const Replay replay = replayed(folder / "a.mcap");
   EXPECT_EQ(replay.ticks, static_cast<std::uint64_t>(kTicks));
   EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
@@ -91,30 +94,23 @@ TEST(Replay, TheSameSettingsGiveTheSameFlightBitForBit) {
 TEST(Replay, WhatTheOperatorDecidedAboutCalibrationsIsDecidedAgain) {
   const TemporaryFolder folder;
   const SessionSettings settings = test::hoverSettings(24);
-  {
-    Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kWait);
-    LockStep flight(settings.rig, settings.plan, &recorder);
-    for (int i = 0; i < kTicks; ++i) {
-      OperatorCommands commands;
-      commands.arm = commands.take_off = i == 60;
-      CalibrationOrder order;
-      order.camera = cameraId(2);
-      order.kind = i == 300 ? CalibrationOrderKind::kFreeze : CalibrationOrderKind::kResume;
-      if (i == 300 || i == 400) flight.orderCalibration(order);
-      if (i == 500) {
-        order.kind = CalibrationOrderKind::kAdopt;
-        order.camera_from_world = *settings.rig.simulation.true_camera_from_world[2];
-        order.camera_from_world.translation.x() += 1.0 / 300.0;
-        order.covariance = 1e-5 * Matrix6d::Identity();
-        flight.orderCalibration(order);
-      }
-      if (i == 600) {
-        order.kind = CalibrationOrderKind::kRefine;
-        EXPECT_EQ(flight.orderCalibration(order), nullptr);
-      }
-      flight.tick(commands);
+  record(folder / "a.mcap", settings, [&](int i, LockStep& flight) {
+    CalibrationOrder order;
+    order.camera = cameraId(2);
+    order.kind = i == 300 ? CalibrationOrderKind::kFreeze : CalibrationOrderKind::kResume;
+    if (i == 300 || i == 400) flight.orderCalibration(order);
+    if (i == 500) {
+      order.kind = CalibrationOrderKind::kAdopt;
+      order.camera_from_world = *settings.rig.simulation.true_camera_from_world[2];
+      order.camera_from_world.translation.x() += 1.0 / 300.0;
+      order.covariance = 1e-5 * Matrix6d::Identity();
+      flight.orderCalibration(order);
     }
-  }
+    if (i == 600) {
+      order.kind = CalibrationOrderKind::kRefine;
+      EXPECT_EQ(flight.orderCalibration(order), nullptr);
+    }
+  });
   const Replay replay = replayed(folder / "a.mcap");
   EXPECT_EQ(replay.ticks, static_cast<std::uint64_t>(kTicks));
   EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;
@@ -127,21 +123,12 @@ TEST(Replay, BallsAndFocalLengthsThatWereCorrectedInFlightAreCorrectedAgain) {
   settings.rig.self_calibration = {1e-3, 0.01};
   settings.rig.simulation.marker_error_m = 1e-3;
   settings.rig.simulation.focal_error = 0.003;
-  EngineSnapshot last;
-  {
-    Recorder recorder(folder / "a.mcap", settings, Recorder::WhenFull::kWait);
-    LockStep flight(settings.rig, settings.plan, &recorder);
-    for (int i = 0; i < kTicks; ++i) {
-      OperatorCommands commands;
-      commands.arm = commands.take_off = i == 60;
-      CalibrationOrder order;
-      order.kind = CalibrationOrderKind::kRefine;
-      if (i == 600) {
-        EXPECT_EQ(flight.orderCalibration(order), nullptr);
-      }
-      last = flight.tick(commands);
-    }
-  }
+  const EngineSnapshot last = record(folder / "a.mcap", settings, [](int i, LockStep& flight) {
+    if (i != 600) return;
+    CalibrationOrder order;
+    order.kind = CalibrationOrderKind::kRefine;
+    EXPECT_EQ(flight.orderCalibration(order), nullptr);
+  });
   ASSERT_EQ(last.refinement.outcome, RefinementOutcome::kCorrected);
   const Replay replay = replayed(folder / "a.mcap");
   EXPECT_EQ(replay.different_ticks, 0u) << "first at " << replay.first_difference_s;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/calibration/rig/quantile.h"
+
 namespace helical {
 namespace {
 
@@ -33,20 +35,23 @@ void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std
   }
 }
 
+std::vector<std::optional<double>> medianSpeeds(const SightingTable& table, bool of_inliers) {
+  std::vector<std::vector<double>> speeds(table.late_s.size());
+  for (const Sighting& s : table.sightings)
+    if (s.motion.known && (s.inlier || !of_inliers))
+      speeds[static_cast<std::size_t>(s.camera)].push_back(s.motion.velocity.norm());
+  std::vector<std::optional<double>> medians(speeds.size());
+  for (std::size_t c = 0; c < speeds.size(); ++c)
+    if (!speeds[c].empty()) medians[c] = quantileOf(speeds[c], 0.5);
+  return medians;
+}
+
 void giveUpAdrift(SightingTable& table) {
-  std::vector<std::vector<double>> moved_px(table.late_s.size());
-  for (const Sighting& s : table.sightings) {
+  const auto speeds = medianSpeeds(table, false);
+  for (Sighting& s : table.sightings) {
     const auto c = static_cast<std::size_t>(s.camera);
-    if (s.motion.known) moved_px[c].push_back(std::abs(table.late_s[c]) * s.motion.velocity.norm());
+    s.adrift = !s.motion.known && std::abs(table.late_s[c]) * speeds[c].value_or(0.0) > kWorthPx;
   }
-  std::vector<bool> misleads;
-  for (auto& each : moved_px) {
-    const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
-    std::nth_element(each.begin(), middle, each.end());
-    misleads.push_back(!each.empty() && *middle > kWorthPx);
-  }
-  for (Sighting& s : table.sightings)
-    s.adrift = !s.motion.known && misleads[static_cast<std::size_t>(s.camera)];
 }
 
 DelayNoise noiseAfterDelay(Timing timing, double periods) {

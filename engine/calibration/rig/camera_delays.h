@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,10 @@ Eigen::Vector2d pixelBefore(const Sighting& sighting, double late_s);
 /// Moves the sightings of every camera to where they were `late_s` (one of each) before, and counts it in
 /// `table.late_s`.
 void takeOffDelays(SightingTable& table, std::span<const RigCamera> cameras, std::span<const double> late_s);
+
+/// How fast what a camera sees moves through its image [px/s], of each camera the median over its sightings
+/// (or the inliers among them) whose motion is known; nothing where there are none.
+std::vector<std::optional<double>> medianSpeeds(const SightingTable& table, bool of_inliers);
 
 /// Marks as adrift what has no motion in cameras whose delay usually is worth more than a pixel or two.
 void giveUpAdrift(SightingTable& table);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/calibration/rig/quantile.h"
+
 namespace helical {
 namespace {
 
@@ -16,13 +18,6 @@ constexpr double kUsualQuantile = 0.25, kUsualSteps = 6.0;
 constexpr double kSmallStepPx = 5.0;
 constexpr double kRestPx =
     1.0;  // a step that is noise: where a target rests, the slower ones are none of its way
-
-double quantile(std::vector<double>& values, double fraction) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Of rows of one track. A body's points may go without names: their places in it tell them apart.
 auto trackKey(const PointRow& row, const Eigen::Vector3d& in_body) {
@@ -40,7 +35,7 @@ class Bridge {
     std::vector<double> steps;
     for (std::size_t i = 1; i < rows; ++i)
       if (const double step = (pixel_of(i) - pixel_of(i - 1)).norm(); step > kRestPx) steps.push_back(step);
-    largest_step_px_ = std::max(kSmallStepPx, kUsualSteps * quantile(steps, kUsualQuantile));
+    largest_step_px_ = std::max(kSmallStepPx, kUsualSteps * quantileOf(steps, kUsualQuantile));
   }
 
   bool holds(const PointRow& a, const PointRow& b) const {
@@ -114,7 +109,7 @@ Rhythm rhythmOf(const PointRows& rows, int cameras) {
     i = j;
   }
   Rhythm rhythm;
-  rhythm.period_s = quantile(gaps, 0.5);
+  rhythm.period_s = quantileOf(gaps, 0.5);
   rhythm.shared_stamps = frames > 0 ? static_cast<double>(shared) / static_cast<double>(frames) : 0.0;
   return rhythm;
 }

@@ -6,6 +6,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <vector>
 
+#include "engine/calibration/rig/quantile.h"
 #include "engine/geometry/rotation.h"
 
 namespace helical {
@@ -39,10 +40,7 @@ double medianParallaxDeg(std::span<const Eigen::Vector2d> a, std::span<const Eig
     const Eigen::Vector3d ray = (b_from_a.rotation * a[i].homogeneous()).normalized();
     angles.push_back(std::acos(std::clamp(ray.dot(b[i].homogeneous().normalized()), -1.0, 1.0)));
   }
-  if (angles.empty()) return 0.0;
-  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), middle, angles.end());
-  return toDegrees(*middle);
+  return toDegrees(quantileOf(angles, 0.5));
 }
 
 }  // namespace

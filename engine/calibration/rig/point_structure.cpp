@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/calibration/rig/quantile.h"
+
 namespace helical {
 namespace {
 
@@ -113,10 +115,8 @@ double sightingSigma(const RigState& state, std::span<const RigCamera> cameras, 
   const double items = static_cast<double>(std::count(used.begin(), used.end(), true));
   const double parameters = items * (table.kind == TargetKind::kBody ? 6.0 : 3.0);
   const double measured = static_cast<double>(errors.size());
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
   const double freedom = std::max(0.1 * measured, measured - parameters);
-  return std::max(kLeastSigmaPx, kMedianToSigma * *middle * std::sqrt(measured / freedom));
+  return std::max(kLeastSigmaPx, kMedianToSigma * quantileOf(errors, 0.5) * std::sqrt(measured / freedom));
 }
 
 void gateSightings(RigState& state, std::span<const RigCamera> cameras, SightingTable& table,

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "engine/calibration/rig/camera_delays.h"
 #include "engine/calibration/rig/sighting_derivatives.h"
@@ -13,13 +16,13 @@
 namespace helical {
 namespace {
 
-constexpr double kScaleWeightPx = 100.0;
 constexpr double kLongestStep = 0.3;  // periods that a delay changes by at once: beyond, the parabola guesses
 constexpr double kRobustKeeps = 0.83;  // of the squares of Gaussian noise, Cauchy's loss at three sigmas
 constexpr double kTellingSigmas = 3.0;
-constexpr double kUnseenPx = 1000.0;  // stands for a point which the camera model cannot project
-constexpr double kGivenFocal = 1.0;   // a scale
-using Block = std::array<double, 7>;  // quaternion x y z w, translation
+constexpr double kGivenFocal = 1.0;  // a scale
+
+constexpr double kUnseenPx = 1000.0;      // stands for a point which the camera model cannot project
+using PoseBlock = std::array<double, 7>;  ///< quaternion x y z w, translation
 
 RigidTransform toTransform(const double* block) {
   return {Eigen::Map<const Eigen::Quaterniond>(block), Eigen::Map<const Eigen::Vector3d>(block + 4)};
@@ -75,6 +78,18 @@ class BodyManifold final : public PoseManifold {
   }
 };
 
+/// Of a point that the camera model cannot project.
+const Eigen::Matrix<double, 2, 3> kNoSlope = Eigen::Matrix<double, 2, 3>::Zero();
+
+/// Derivatives of a pixel by the first of a block's numbers; zero by the others. Null: nobody asks.
+template <int kUsed, int kSize>
+void putDerivatives(const Eigen::Matrix<double, 2, kUsed>& values, double* jacobian) {
+  if (jacobian == nullptr) return;
+  Eigen::Map<Eigen::Matrix<double, 2, kSize, Eigen::RowMajor>> out(jacobian);
+  out.setZero();
+  out.template leftCols<kUsed>() = values;
+}
+
 /// Predicted less seen pixel of a body's point under a focal length that is the camera's times a scale.
 /// Parameters: camera, the body's pose, the point in the body, the scale.
 class FreeBodyCost final : public ceres::SizedCostFunction<2, 7, 7, 3, 1> {
@@ -96,24 +111,14 @@ class FreeBodyCost final : public ceres::SizedCostFunction<2, 7, 7, 3, 1> {
     if (jacobians == nullptr) return true;
     const SightingDerivatives d =
         sightingDerivatives(camera_from_world, point, arm, pixel ? (scale * d_pixel).eval() : kNoSlope);
-    put<6, 7>(d.camera, jacobians[0]);
-    put<6, 7>(d.body, jacobians[1]);
-    put<3, 3>(d.point * world_from_body.rotation.toRotationMatrix(), jacobians[2]);
+    putDerivatives<6, 7>(d.camera, jacobians[0]);
+    putDerivatives<6, 7>(d.body, jacobians[1]);
+    putDerivatives<3, 3>(d.point * world_from_body.rotation.toRotationMatrix(), jacobians[2]);
     if (jacobians[3] != nullptr) Eigen::Map<Eigen::Vector2d>{jacobians[3]} = from_centre;
     return true;
   }
 
  private:
-  static inline const Eigen::Matrix<double, 2, 3> kNoSlope = Eigen::Matrix<double, 2, 3>::Zero();
-
-  template <int kUsed, int kSize>
-  static void put(const Eigen::Matrix<double, 2, kUsed>& values, double* jacobian) {
-    if (jacobian == nullptr) return;
-    Eigen::Map<Eigen::Matrix<double, 2, kSize, Eigen::RowMajor>> out(jacobian);
-    out.setZero();
-    out.template leftCols<kUsed>() = values;
-  }
-
   const CameraModel& camera_;
   Eigen::Vector2d seen_;
 };
@@ -163,21 +168,13 @@ class SightingCost final : public ceres::SizedCostFunction<2, 7, kItemSize, 1> {
     Eigen::Map<Eigen::Vector2d>{residuals} =
         pixel ? (*pixel - pixelBefore(sighting_, late)).eval() : Eigen::Vector2d::Constant(kUnseenPx);
     if (jacobians == nullptr) return true;
-    const SightingDerivatives d = sightingDerivatives(camera_from_world, point, arm, d_pixel);
-    if (jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, 2, 7, Eigen::RowMajor>> out(jacobians[0]);
-      out.setZero();
-      if (pixel) out.leftCols<6>() = d.camera;
-    }
-    if (jacobians[1] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, 2, kItemSize, Eigen::RowMajor>> out(jacobians[1]);
-      out.setZero();
-      if constexpr (kIsBody) {
-        if (pixel) out.template leftCols<6>() = d.body;
-      } else {
-        if (pixel) out = d.point;
-      }
-    }
+    const SightingDerivatives d =
+        sightingDerivatives(camera_from_world, point, arm, pixel ? d_pixel : kNoSlope);
+    putDerivatives<6, 7>(d.camera, jacobians[0]);
+    if constexpr (kIsBody)
+      putDerivatives<6, 7>(d.body, jacobians[1]);
+    else
+      putDerivatives<3, 3>(d.point, jacobians[1]);
     if (jacobians[2] != nullptr) {
       Eigen::Map<Eigen::Vector2d> out(jacobians[2]);
       out.setZero();
@@ -199,15 +196,16 @@ class ScaleCost final : public ceres::SizedCostFunction<1, 7> {
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::Vector3d apart = toTransform(parameters[0]).inverseTranslation() - from_;
-    residuals[0] = kScaleWeightPx * (apart.norm() / distance_ - 1.0);
+    residuals[0] = kWeightPx * (apart.norm() / distance_ - 1.0);
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     Eigen::Map<Eigen::Matrix<double, 1, 7, Eigen::RowMajor>> out(jacobians[0]);
     out.setZero();
-    out.segment<3>(3) = (kScaleWeightPx / distance_) * apart.normalized().transpose();
+    out.segment<3>(3) = (kWeightPx / distance_) * apart.normalized().transpose();
     return true;
   }
 
  private:
+  static constexpr double kWeightPx = 100.0;
   Eigen::Vector3d from_;
   double distance_;
 };
@@ -340,16 +338,11 @@ class Bundle {
 
   /// What hardly moves in a period tells of no delay, only of how noise averages.
   void holdDelaysOfStillViews() {
-    std::vector<std::vector<double>> steps_px(camera_blocks_.size());
-    for (const Sighting& s : table_.sightings)
-      if (s.inlier && s.motion.known)
-        steps_px[static_cast<std::size_t>(s.camera)].push_back(s.motion.velocity.norm() * table_.period_s);
-    for (std::size_t c = 0; c < steps_px.size(); ++c) {
-      if (!problem_.HasParameterBlock(&late_blocks_[c]) || steps_px[c].empty()) continue;
-      const auto middle = steps_px[c].begin() + static_cast<std::ptrdiff_t>(steps_px[c].size() / 2);
-      std::nth_element(steps_px[c].begin(), middle, steps_px[c].end());
-      if (*middle < kTellingSigmas * options_.sigma_px) problem_.SetParameterBlockConstant(&late_blocks_[c]);
-    }
+    const auto speeds = medianSpeeds(table_, true);
+    for (std::size_t c = 0; c < speeds.size(); ++c)
+      if (problem_.HasParameterBlock(&late_blocks_[c]) && speeds[c] &&
+          *speeds[c] * table_.period_s < kTellingSigmas * options_.sigma_px)
+        problem_.SetParameterBlockConstant(&late_blocks_[c]);
   }
 
   /// A block without a sigma stays where it is.
@@ -433,7 +426,7 @@ class Bundle {
   CameraManifold camera_manifold_;
   BodyManifold body_manifold_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  std::vector<Block> camera_blocks_, item_blocks_;
+  std::vector<PoseBlock> camera_blocks_, item_blocks_;
   std::vector<double> late_blocks_;
   std::vector<Eigen::Vector3d> points_;  ///< of a free body
   std::vector<double> focal_scales_;     ///< likewise

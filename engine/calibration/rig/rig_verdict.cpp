@@ -84,8 +84,7 @@ void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camer
       static_cast<double>(c.rejected) / static_cast<double>(c.observations), kGoodRejected, kUsableRejected,
       std::to_string(c.rejected) + " of " + std::to_string(c.observations) + " observations of " + who +
           " were rejected: something else than the target was seen, its intrinsics are wrong, or its time "
-          "stamps are "
-          "more than a frame off");
+          "stamps are more than a frame off");
   judge.limit(c.reprojection_rms_px / camera.model.width(), kGoodRms, kUsableRms,
               who + " misses by " + number(c.reprojection_rms_px, 2) +
                   " px rms: see to its intrinsics, its focus, and that clocks and columns are right");

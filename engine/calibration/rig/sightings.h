@@ -32,8 +32,7 @@ struct Sighting {
   Eigen::Vector3d in_body = Eigen::Vector3d::Zero();  ///< metres; of a body's point
   PixelMotion motion;                                 ///< along the camera's own track
   bool inlier = false;
-  bool adrift =
-      false;  ///< its camera saw later, and its motion is not known: where it was at its stamp nobody knows
+  bool adrift = false;  ///< its camera saw later, and how it moves is unknown: so is where it was at its stamp
 };
 
 /// How rows of cameras that were not exposed at the same instants are brought together.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/markers/disc_normal.h"
+
 namespace helical {
 namespace {
 
@@ -30,18 +32,10 @@ constexpr std::array<std::array<float, 2>, 8> kDirections{{{1.0F, 0.0F},
 using Normal = Eigen::Matrix<double, kCutParameters, kCutParameters>;
 using Vector = Eigen::Matrix<double, kCutParameters, 1>;
 
-/// Under flat light its direction shows nowhere.
-double priorOf(double ambient) {
-  return 4.0 / (1.0 + ambient * ambient);
-}
-
-Normal normalOf(const DiscSums& sums, double ambient) {
-  Normal normal;
-  for (int a = 0; a < kCutParameters; ++a)
-    for (int b = 0; b <= a; ++b)
-      normal(a, b) = normal(b, a) = sums.normal[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+Normal normalWithPrior(const DiscSums& sums, double ambient) {
+  Normal normal = normalOf<kCutParameters>(sums);
   normal.diagonal().array() += 1e-9;
-  normal(kDiscLightZ, kDiscLightZ) += priorOf(ambient);
+  normal(kDiscLightZ, kDiscLightZ) += lightPrior(ambient);
   return normal;
 }
 
@@ -106,7 +100,7 @@ void CutDisc::descend(DiscCells& cells, int steps) {
   DiscSums sums;
   const auto cost = [&](const CutDisc& at) {
     const double light = at.disc[kDiscLightZ];
-    return sums.squares + priorOf(at.disc[kDiscAmbient]) * light * light;
+    return sums.squares + lightPrior(at.disc[kDiscAmbient]) * light * light;
   };
   evaluate(cells);
   sumCutDisc(cells, sums);
@@ -114,8 +108,8 @@ void CutDisc::descend(DiscCells& cells, int steps) {
   count = sums.count;
   double least = cost(*this), damping = kFirstDamping;
   for (int step = 0; step < steps && damping < kMostDamping;) {
-    const double ambient = disc[kDiscAmbient], prior = priorOf(ambient);
-    const Normal normal = normalOf(sums, ambient);
+    const double ambient = disc[kDiscAmbient], prior = lightPrior(ambient);
+    const Normal normal = normalWithPrior(sums, ambient);
     Vector gradient = Eigen::Map<const Vector>(sums.gradient.data());
     gradient[kDiscLightZ] -= prior * disc[kDiscLightZ];
     for (bool is_better = false; !is_better && step < steps && damping < kMostDamping; ++step) {
@@ -126,7 +120,7 @@ void CutDisc::descend(DiscCells& cells, int steps) {
       if (!(length < 1e6)) return;
       if (length > most) change *= most / length;
       CutDisc next = moved(*this, change);
-      next.disc[kDiscRadius] = std::max(next.disc[kDiscRadius], 0.7F);
+      next.disc[kDiscRadius] = std::max(next.disc[kDiscRadius], kSmallestDisc);
       next.evaluate(cells);
       sumCutDisc(cells, sums);
       is_better = cost(next) < least;
@@ -144,7 +138,7 @@ void CutDisc::descend(DiscCells& cells, int steps) {
 Eigen::Matrix2d CutDisc::covariance(DiscCells& cells, double least_variance) const {
   DiscSums sums;
   sumCutDisc(cells, sums);
-  const Normal inverse = normalOf(sums, disc[kDiscAmbient]).ldlt().solve(Normal::Identity());
+  const Normal inverse = normalWithPrior(sums, disc[kDiscAmbient]).ldlt().solve(Normal::Identity());
   const double variance = sums.squares / std::max(1.0, sums.count - double{kCutParameters});
   return std::max(least_variance, variance) * inverse.topLeftCorner<2, 2>();
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/markers/disc_normal.h"
+
 namespace helical {
 namespace {
 
@@ -49,7 +51,6 @@ constexpr double kDisagreement = 16.0;  ///< chi-square between colour and both
 
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-using ModelNormal = Eigen::Matrix<double, kDiscParameters, kDiscParameters>;
 using ModelVector = Eigen::Matrix<double, kDiscParameters, 1>;
 
 const Eigen::Vector3d kGrey = Eigen::Vector3d::Constant(0.5773502691896258);
@@ -76,14 +77,6 @@ float median(std::span<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-ModelNormal normalOf(const DiscSums& sums) {
-  ModelNormal normal;
-  for (int a = 0; a < kDiscParameters; ++a)
-    for (int b = 0; b <= a; ++b)
-      normal(a, b) = normal(b, a) = sums.normal[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
-  return normal;
 }
 
 }  // namespace
@@ -426,7 +419,7 @@ DiscFit::System DiscFit::linearise() {
   DiscSums sums;
   evaluateDisc(p_, hasShadow(p_), *colour_);
   sumDisc(*colour_, sums);
-  system.normal.topLeftCorner<kDiscParameters, kDiscParameters>() = normalOf(sums);
+  system.normal.topLeftCorner<kDiscParameters, kDiscParameters>() = normalOf<kDiscParameters>(sums);
   system.gradient.head<kDiscParameters>() = Eigen::Map<const ModelVector>(sums.gradient.data());
   system.count = sums.count;
   system.squares = sums.squares;
@@ -441,15 +434,14 @@ DiscFit::System DiscFit::linearise() {
       chain(k, kRatio) = p_[k];
     }
     chain(kDiscAround, kSecondAround) = 1.0;
-    system.normal += brightness_weight_ * (chain.transpose() * normalOf(sums) * chain);
+    system.normal += brightness_weight_ * (chain.transpose() * normalOf<kDiscParameters>(sums) * chain);
     system.gradient +=
         brightness_weight_ * (chain.transpose() * Eigen::Map<const ModelVector>(sums.gradient.data()));
     system.count += sums.count;
     system.squares += brightness_weight_ * sums.squares;
   }
   system.normal.diagonal().array() += 1e-9;
-  // Under flat light its direction shows nowhere.
-  const double ambient = p_[kDiscAmbient], prior = 4.0 / (1.0 + ambient * ambient);
+  const double ambient = p_[kDiscAmbient], prior = lightPrior(ambient);
   system.normal(kDiscLightZ, kDiscLightZ) += prior;
   system.gradient[kDiscLightZ] -= prior * p_[kDiscLightZ];
   return system;
@@ -467,7 +459,7 @@ bool DiscFit::descend(int steps) {
       p_[static_cast<std::size_t>(k)] += static_cast<float>(change[k]);
     brightness_over_colour_ += static_cast<float>(change[kRatio]);
     brightness_around_ += static_cast<float>(change[kSecondAround]);
-    if (!(p_[kDiscRadius] > 0.7F)) return false;
+    if (!(p_[kDiscRadius] > kSmallestDisc)) return false;
     if (step > 1 && moved < kSettled) break;
   }
   return true;

@@ -12,6 +12,8 @@ namespace helical {
 /// ball ends as well as all others do. Levenberg and Marquardt over all of it. Repeats bit for bit. No
 /// allocation.
 struct CutDisc {
+  static constexpr int kSize = kCutParameters;
+
   std::array<float, kDiscParameters> disc{};
   CutEdge edge;
   double squares = 0.0;  ///< of the residuals over the given cells
@@ -21,8 +23,11 @@ struct CutDisc {
   void descend(DiscCells& cells, int steps);
   /// Fills the cells' residuals, slopes, and what is seen of them.
   void evaluate(DiscCells& cells) const;
+  /// The same, and their sums.
+  DiscSums measure(DiscCells& cells) const;
+  CutDisc moved(const Eigen::Matrix<double, kSize, 1>& change) const;
   /// Of the disc's centre, of cells just evaluated, whose residuals have at least that variance.
-  Eigen::Matrix2d covariance(DiscCells& cells, double least_variance) const;
+  Eigen::Matrix2d covariance(const DiscCells& cells, double least_variance) const;
 };
 
 /// The best fit to cells around a region of which something hides a part, from whichever side: `disc` has the

@@ -35,9 +35,16 @@ constexpr int kRays = 24;
 /// Of a disc with an edge before it: the same with room for the few cells that the noise is known by, and
 /// the share that must be seen. What is no such disc leaves ten times as much.
 constexpr double kCutTail = 3.0, kLeastSeen = 0.3;
-/// Elongation: from the first on, what is no disc may be smeared; from the second on, what looks like a disc,
-/// too, which noise makes longish by no more.
-constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25;
+/// Elongation: from the first on, what looks like a disc may have moved; from the second on, what is no disc
+/// may be smeared; from the third on, it is not asked whether it is a disc, which noise makes longish by no
+/// more.
+constexpr double kMaybeSmeared = 1.06, kLeastSmear = 1.07, kSurelySmeared = 1.25;
+constexpr double kMaybeMoved = 4.5;   ///< chi-square of what a motion leaves on both sides of the outline
+constexpr double kRim = 1.5;          ///< cells, on either side
+constexpr double kSurelyLong = 2.8;   ///< elongation: nothing hides so much of a ball that is still found
+constexpr double kRatherCut = 8.0;    ///< chi-square: what is as well hidden as moving is taken for hidden
+constexpr double kSurelyOne = 1.4;    ///< misfit of a smeared ball that is no pair
+constexpr double kSurelyMoved = 9.0;  ///< chi-square over a ball at rest
 /// Cells of a region: fewer say too little of which of its sides are alike.
 constexpr std::int64_t kFewestSmeared = 40;
 
@@ -72,6 +79,16 @@ constexpr auto kDirections = [] {
   return directions;
 }();
 
+Disc discOf(const SmearedBall& ball) {
+  Disc disc;
+  disc.centre = ball.centre;
+  disc.half_way = ball.half;
+  disc.covariance = ball.covariance;
+  disc.radius = ball.radius;
+  disc.seen_share = std::clamp(ball.seen / (kPi * disc.radius * disc.radius), 0.0, 1.0);
+  return disc;
+}
+
 /// Sorts some of them.
 float median(std::span<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -93,19 +110,20 @@ DiscFit::DiscFit() : colour_(std::make_unique<DiscCells>()), brightness_(std::ma
 
 std::optional<Disc> DiscFit::fit(const CellGrid& grid, const Region& region) {
   smear_.setZero();
-  return readWindow(grid, region) ? fitWindow() : std::nullopt;
+  return readWindow(grid, region) ? fitWindow(grid) : std::nullopt;
 }
 
-std::optional<Disc> DiscFit::fitWindow() {
-  const auto by_colour = fitColour();
-  return by_colour && has_colour_ ? withBrightness(*by_colour) : by_colour;
+std::optional<Disc> DiscFit::fitWindow(const CellGrid& grid) {
+  const auto by_colour = fitColour(grid);
+  if (!by_colour || !has_colour_ || !by_colour->half_way.isZero()) return by_colour;
+  return withBrightness(*by_colour);
 }
 
 std::optional<std::array<Disc, 2>> DiscFit::fitTwo(const CellGrid& grid, const Region& region) {
   if (!OverlapSplit::mayBeTwo(region) || !readWindow(grid, region)) return std::nullopt;
   const ValueWindow values = window(region);
   auto pair = split_.circles(values);
-  if (!pair) return std::nullopt;
+  if (!pair || isOneMoving(grid)) return std::nullopt;
   std::array<Region, 2> parts{OverlapSplit::partOf(values, (*pair)[0], (*pair)[1]),
                               OverlapSplit::partOf(values, (*pair)[1], (*pair)[0])};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -120,13 +138,18 @@ std::optional<std::array<Disc, 2>> DiscFit::fitTwo(const CellGrid& grid, const R
                              fitPart(grid, parts[1], (*pair)[1], (*pair)[0])};
 }
 
+bool DiscFit::isOneMoving(const CellGrid& grid) {
+  const auto ball = fitMoving(grid, smearOfRegion(), nullptr);
+  return ball && ball->misfit < kSurelyOne;
+}
+
 Disc DiscFit::fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine,
                       const OutlineCircle& other) {
   neighbour_ = other;
   std::optional<Disc> disc;
   if (readWindow(grid, part)) {
     binary_ = {{mine.centre.x - left_, mine.centre.y - top_}, mine.radius};
-    disc = fitWindow();
+    disc = fitWindow(grid);
   }
   neighbour_.reset();
   if (disc) return *disc;
@@ -155,14 +178,35 @@ ValueWindow DiscFit::window(const Region& region) {
 }
 
 Smear DiscFit::smearOfRegion() {
-  if (neighbour_ || region_.area < kFewestSmeared) return {};
+  if (neighbour_) return {};
   const ValueWindow values = window(region_);
   return measureSmear({{colour_->x.data(), real_count_},
                        {colour_->y.data(), real_count_},
                        {colour_->value.data(), real_count_},
                        static_cast<double>(values.level),
-                       static_cast<double>(values.contrast)},
-                      kLeastSmear);
+                       static_cast<double>(values.contrast)});
+}
+
+std::optional<SmearedBall> DiscFit::fitMoving(const CellGrid& grid, const Smear& smear,
+                                              const Parameters* at_rest) {
+  if (!(smear.shorter > 0.0)) return std::nullopt;
+  const ValueWindow values = window(region_);
+  SmearStart start;
+  start.middle = smear.middle + Eigen::Vector2d(left_, top_);
+  start.half = std::sqrt(3.0 * (smear.longer - smear.shorter)) * smear.axis;
+  start.radius = 2.0 * std::sqrt(smear.shorter);
+  start.ball = static_cast<double>(values.level + values.contrast);
+  start.around = static_cast<double>(values.level - values.contrast);
+  std::array<float, kDiscParameters> disc{};
+  if (at_rest != nullptr) {
+    disc = *at_rest;
+    disc[kDiscX] += static_cast<float>(left_);
+    disc[kDiscY] += static_cast<float>(top_);
+  }
+  const auto ball = smear_fit_.fit(grid, axis_, start, at_rest != nullptr ? &disc : nullptr);
+  const bool is_ball = ball && ball->contrast > kLeastContrast && ball->misfit < kCutTail &&
+                       (at_rest == nullptr || ball->gain > kSurelyMoved);
+  return is_ball ? ball : std::nullopt;
 }
 
 float DiscFit::givenAt(double x, double y) const {
@@ -172,20 +216,23 @@ float DiscFit::givenAt(double x, double y) const {
   return dx * dx + dy * dy < reach * reach ? 0.0F : 1.0F;
 }
 
-std::optional<Disc> DiscFit::fitColour() {
+std::optional<Disc> DiscFit::fitColour(const CellGrid& grid) {
   const Smear smear = smearOfRegion();
-  smear_ = smear.covariance;
-  if (smear.isOver(kSurelySmeared)) return std::nullopt;
+  const bool has_sides = region_.area >= kFewestSmeared;
+  if (has_sides && smear.elongation > kLeastSmear) smear_ = smear.covariance;
+  const bool is_smeared = has_sides && smear.isOver(kSurelySmeared);
   start(binary_);
   std::array<OutlinePoint, kRays> room;
   const std::span outline(room.data(), static_cast<std::size_t>(traceOutline(room)));
-  if (descend(kSteps) && isPlausible() && fitsEverywhere())
+  if (!is_smeared && descend(kSteps) && isPlausible() && fitsEverywhere()) {
+    if (!neighbour_ && mayHaveMoved(smear))
+      if (const auto ball = fitMoving(grid, smear, &p_)) return discOf(*ball);
     if (const auto disc = result()) return disc;
-  if (smear.isOver(kLeastSmear)) return std::nullopt;
+  }
+  if (!neighbour_)
+    if (const auto disc = fitMovingOrCut(grid, smear)) return disc;
+  if (has_sides && smear.isOver(kLeastSmear)) return std::nullopt;
   smear_.setZero();
-  // Of a large ball only one that is seen nearly whole is believed, which no edge hides a part of.
-  if (!neighbour_ && binary_.radius < kLarge)
-    if (const auto cut = fitCut()) return cut;
   start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
     leaveOutHidden();
@@ -194,7 +241,40 @@ std::optional<Disc> DiscFit::fitColour() {
   return result();
 }
 
-std::optional<Disc> DiscFit::fitCut() {
+bool DiscFit::mayHaveMoved(const Smear& smear) {
+  return smear.elongation > kMaybeSmeared || motionInResiduals() > kMaybeMoved;
+}
+
+double DiscFit::motionInResiduals() {
+  const DiscCells& cells = *colour_;
+  const double x = p_[kDiscX], y = p_[kDiscY], radius = p_[kDiscRadius], noise = noiseAround();
+  const double least = std::max(0.0, radius - kRim), most = radius + kRim;
+  double by_cosine = 0.0, by_sine = 0.0, weights = 0.0;
+  for (std::size_t i = 0; i < real_count_; ++i) {
+    const double dx = cells.x[i] - x, dy = cells.y[i] - y, d2 = dx * dx + dy * dy;
+    if (d2 <= least * least || d2 >= most * most) continue;
+    const double beyond = std::sqrt(d2) - radius,
+                 value = beyond * static_cast<double>(cells.residual[i]) / d2;
+    by_cosine += value * (dx * dx - dy * dy);
+    by_sine += value * 2.0 * dx * dy;
+    weights += beyond * beyond;
+  }
+  return (by_cosine * by_cosine + by_sine * by_sine) / (0.5 * noise * noise * std::max(1e-9, weights));
+}
+
+std::optional<Disc> DiscFit::fitMovingOrCut(const CellGrid& grid, const Smear& smear) {
+  const auto ball = fitMoving(grid, smear, nullptr);
+  const bool is_long = smear.elongation > kSurelyLong;
+  const bool has_sides = region_.area >= kFewestSmeared && smear.isOver(kLeastSmear);
+  // Of a large ball only one that is seen nearly whole is believed, which no edge hides a part of.
+  double excess = 0.0;
+  std::optional<Disc> cut;
+  if (binary_.radius < kLarge && !(ball && is_long) && !has_sides) cut = fitCut(excess);
+  if (!ball || (cut && excess < ball->excess + kRatherCut)) return cut;
+  return discOf(*ball);
+}
+
+std::optional<Disc> DiscFit::fitCut(double& excess) {
   DiscCells& cells = *colour_;
   start(binary_);
   const CutDisc cut = nearestCut(p_, cells);
@@ -202,9 +282,10 @@ std::optional<Disc> DiscFit::fitCut() {
   double seen = 0.0;
   for (std::size_t i = 0; i < real_count_; ++i) seen += cells.cover[i];
   const auto disc = believed(cut.covariance(cells, kLeastVariance), seen);
-  const double noise = noiseAround();
-  const bool fits = cut.squares < kCutTail * noise * noise * cut.count;
-  if (!fits || !isPlausible() || !disc || disc->seen_share < kLeastSeen) return std::nullopt;
+  const double noise = noiseAround(), squares = cut.squares / (noise * noise);
+  excess = squares - cut.count;
+  if (squares > kCutTail * cut.count || !isPlausible() || !disc || disc->seen_share < kLeastSeen)
+    return std::nullopt;
   leaveOutHidden();
   return disc;
 }
@@ -228,9 +309,8 @@ bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
   binary_ = {
       {static_cast<double>(region.sum_x) / area - left_, static_cast<double>(region.sum_y) / area - top_},
       std::sqrt(area / kPi) + 0.3};
-  const Eigen::Vector3d axis =
-      grid.layout == CellLayout::kBytes ? Eigen::Vector3d::UnitX() : colourAxis(grid, region);
-  has_colour_ = grid.layout != CellLayout::kBytes && axis != kGrey;
+  axis_ = grid.layout == CellLayout::kBytes ? Eigen::Vector3d::UnitX() : colourAxis(grid, region);
+  has_colour_ = grid.layout != CellLayout::kBytes && axis_ != kGrey;
   const double middle_x = 0.5 * (region.left + region.right) - left_;
   const double middle_y = 0.5 * (region.top + region.bottom) - top_;
   const double reach = 0.5 * std::max(region.right - region.left, region.bottom - region.top) + 0.5 + kReach;
@@ -240,7 +320,7 @@ bool DiscFit::readWindow(const CellGrid& grid, const Region& region) {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       readCell(grid, left_ + x, top_ + y, cell.data());
-      const auto value = static_cast<float>(axis[0] * cell[0] + axis[1] * cell[1] + axis[2] * cell[2]);
+      const auto value = static_cast<float>(axis_[0] * cell[0] + axis_[1] * cell[1] + axis_[2] * cell[2]);
       values_[static_cast<std::size_t>(y * width_ + x)] = value;
       const double dx = x - middle_x, dy = y - middle_y;
       if (dx * dx + dy * dy > reach * reach) continue;

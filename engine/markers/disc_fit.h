@@ -13,6 +13,7 @@
 #include "engine/markers/overlap_split.h"
 #include "engine/markers/region_labeller.h"
 #include "engine/markers/smear.h"
+#include "engine/markers/smear_fit.h"
 
 namespace helical {
 
@@ -22,6 +23,8 @@ struct Disc {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
   double radius = 0.0;
   double seen_share = 1.0;  ///< of the disc's area; the rest is hidden by something else
+  /// Of a ball that moved while the shutter was open: from its centre, in the middle of its way, to the end.
+  Eigen::Vector2d half_way = Eigen::Vector2d::Zero();
 };
 
 /// Fits the picture of a shaded ball to the cells around a region: least squares over the centre, the radius,
@@ -30,17 +33,18 @@ struct Disc {
 /// with the share of the cell that the disc covers and the normal of the sphere there. What is fitted first
 /// is the colour's part along the ball's own, so that grey surroundings, whatever their brightness, look
 /// alike; then, where the surroundings are even, the brightness as well, with the same light and a level of
-/// its own, each cell of both by the scatter around the fit. Where that does not fit, something hides a part:
-/// a straight edge before the disc is fitted, too. If the edge is none, the circle that most of the outline
-/// lies on is the start, and cells that do not fit are left out. The
-/// covariance is that of the fit, with the scatter of the residuals. Repeats bit for bit on any machine.
-/// Allocates in the constructor only. One thread.
+/// its own, each cell of both by the scatter around the fit. Where that does not fit, or a motion explains
+/// what is left better than chance, the ball moved while the shutter was open (SmearFit), or something hides
+/// a part of it: a straight edge before the disc is fitted, too. If there is none, the circle that most of
+/// the outline lies on is the start, and cells that do not fit are left out. The covariance is that of the
+/// fit, with the scatter of the residuals. Repeats bit for bit on any machine. Allocates in the constructor
+/// only. One thread.
 class DiscFit {
  public:
   DiscFit();
 
   /// Nothing if the region is too large for the workspace, or nothing that looks like a ball; or if it is
-  /// longish and alike on both sides, as a ball smeared by its motion is: its centre of gravity is the better
+  /// longish and alike on both sides, but no ball that moved evenly: its centre of gravity is the better
   /// estimate.
   std::optional<Disc> fit(const CellGrid& grid, const Region& region);
   /// Of the last region fitted: what its smear adds to the covariance of its centre of gravity, in cells.
@@ -62,9 +66,14 @@ class DiscFit {
   ValueWindow window(const Region& region);
   Smear smearOfRegion();
   float givenAt(double x, double y) const;
-  std::optional<Disc> fitWindow();
-  std::optional<Disc> fitColour();
-  std::optional<Disc> fitCut();
+  std::optional<Disc> fitWindow(const CellGrid& grid);
+  std::optional<Disc> fitColour(const CellGrid& grid);
+  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear, const Parameters* at_rest);
+  bool isOneMoving(const CellGrid& grid);
+  std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear);
+  std::optional<Disc> fitCut(double& excess);
+  bool mayHaveMoved(const Smear& smear);
+  double motionInResiduals();
   std::optional<Disc> withBrightness(const Disc& by_colour);
   bool startBrightness();
   void levelBrightness();
@@ -94,6 +103,7 @@ class DiscFit {
   Region region_;
   OutlineCircle binary_{};  ///< of the region; like the parameters from the window's corner on
   std::optional<OutlineCircle> neighbour_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();  ///< of the colours, along which values are taken
   bool has_colour_ = false;
   Parameters p_{};
   float brightness_over_colour_ = 0.0F;  ///< of the ball's light
@@ -106,6 +116,7 @@ class DiscFit {
   std::unique_ptr<DiscCells> colour_;
   std::unique_ptr<DiscCells> brightness_;
   OverlapSplit split_;
+  SmearFit smear_fit_;
 };
 
 }  // namespace helical

@@ -1,7 +1,5 @@
 #include "engine/markers/disc_kernels.h"
 
-#include <algorithm>
-
 // clang-format off: foreach_target.h includes this file once per instruction set.
 #define HWY_WANT_AVX3_DL
 #undef HWY_TARGET_INCLUDE
@@ -69,42 +67,114 @@ HWY_INLINE Floats heightOnSphere(Floats rho) {
   return hn::Sqrt(positive(all(1.0F) - rho * rho));
 }
 
+/// The model's parameters and what follows from them, for all cells.
+struct DiscTerms {
+  explicit DiscTerms(const std::array<float, kDiscParameters>& p, bool shadowed)
+      : x(all(p[kDiscX])),
+        y(all(p[kDiscY])),
+        radius(all(p[kDiscRadius])),
+        inverse_radius(all(1.0F) / radius),
+        ambient(all(p[kDiscAmbient])),
+        light_x(all(p[kDiscLightX])),
+        light_y(all(p[kDiscLightY])),
+        light_z(all(p[kDiscLightZ])),
+        around(all(p[kDiscAround])),
+        with_shadow(shadowed) {}
+
+  Floats x, y, radius, inverse_radius, ambient, light_x, light_y, light_z, around;
+  bool with_shadow;
+};
+
+/// What the ball makes of a cell.
+struct ShadedCell {
+  Floats cover;                                                      ///< share of the cell
+  Floats above;                                                      ///< what it adds to the level around it
+  Floats by_x, by_y, by_radius, by_light_x, by_light_y, by_light_z;  ///< slopes; that by ambient is cover
+};
+
+/// `dx`, `dy`: from the ball's centre to the cell's.
+HWY_INLINE ShadedCell shadedCell(const DiscTerms& disc, Floats dx, Floats dy) {
+  const Floats zero = all(0.0F), half = all(0.5F);
+  const Floats distance = hn::Sqrt(dx * dx + dy * dy) + all(1e-6F);
+  const Floats nx = dx / distance, ny = dy / distance;
+  const CoveredPart part = coveredPart(disc.radius - distance, hn::Abs(nx), hn::Abs(ny));
+  const Floats cover = part.share, edge = part.slope;
+  // Light is taken at two places of the part of the cell that the ball covers, along the radius.
+  const Floats rho = (distance + part.middle) * disc.inverse_radius,
+               spread = part.spread * disc.inverse_radius;
+  const Floats z = half * (heightOnSphere(rho - spread) + heightOnSphere(rho + spread));
+  const Floats u = nx * rho, v = ny * rho;
+  Floats directed = disc.light_x * u + disc.light_y * v + disc.light_z * z;
+  const Floats lit = disc.with_shadow ? hn::IfThenElse(hn::Gt(directed, zero), all(1.0F), zero) : all(1.0F);
+  directed = directed * lit;
+  const Floats contrast = disc.ambient + directed - disc.around;
+  const Floats edge_contrast = edge * contrast, lit_cover = lit * cover;
+  const Floats steep = disc.light_z / hn::Max(z, all(0.25F)), inward = lit_cover * disc.inverse_radius;
+  const Floats by_u = disc.light_x - steep * u, by_v = disc.light_y - steep * v;
+  ShadedCell cell;
+  cell.cover = cover;
+  cell.above = cover * contrast;
+  cell.by_x = edge_contrast * nx - inward * by_u;
+  cell.by_y = edge_contrast * ny - inward * by_v;
+  cell.by_radius = edge_contrast - inward * (u * by_u + v * by_v);
+  cell.by_light_x = lit_cover * u;
+  cell.by_light_y = lit_cover * v;
+  cell.by_light_z = lit_cover * z;
+  return cell;
+}
+
+/// Sets a cell's residual, cover and slopes.
+HWY_INLINE void storeCell(const DiscTerms& disc, const ShadedCell& cell, std::size_t i, DiscCells& cells) {
+  const Tag d;
+  hn::Store(cell.by_x, d, &cells.slope[kDiscX][i]);
+  hn::Store(cell.by_y, d, &cells.slope[kDiscY][i]);
+  hn::Store(cell.by_radius, d, &cells.slope[kDiscRadius][i]);
+  hn::Store(cell.cover, d, &cells.slope[kDiscAmbient][i]);
+  hn::Store(cell.by_light_x, d, &cells.slope[kDiscLightX][i]);
+  hn::Store(cell.by_light_y, d, &cells.slope[kDiscLightY][i]);
+  hn::Store(cell.by_light_z, d, &cells.slope[kDiscLightZ][i]);
+  hn::Store(all(1.0F) - cell.cover, d, &cells.slope[kDiscAround][i]);
+  hn::Store(cell.cover, d, &cells.cover[i]);
+  hn::Store(hn::Load(d, &cells.value[i]) - (disc.around + cell.above), d, &cells.residual[i]);
+}
+
 void evaluateAll(const std::array<float, kDiscParameters>& p, bool with_shadow, DiscCells& cells) {
   const Tag d;
-  const Floats radius = all(p[kDiscRadius]), inverse_radius = all(1.0F) / radius,
-               around = all(p[kDiscAround]);
-  const Floats light_x = all(p[kDiscLightX]), light_y = all(p[kDiscLightY]), light_z = all(p[kDiscLightZ]);
-  const Floats zero = all(0.0F), half = all(0.5F);
+  const DiscTerms disc(p, with_shadow);
+  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d))
+    storeCell(disc, shadedCell(disc, hn::Load(d, &cells.x[i]) - disc.x, hn::Load(d, &cells.y[i]) - disc.y), i,
+              cells);
+}
+
+void smearAll(const std::array<float, kDiscParameters>& p, bool with_shadow, const DiscMotion& motion,
+              DiscCells& cells) {
+  const Tag d;
+  const DiscTerms disc(p, with_shadow);
+  const Floats zero = all(0.0F), share = all(1.0F / static_cast<float>(motion.moments));
+  const Floats reach = disc.radius + all(0.75F), reach2 = reach * reach;  // beyond half a cell's diagonal
   for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
-    const Floats dx = hn::Load(d, &cells.x[i]) - all(p[kDiscX]),
-                 dy = hn::Load(d, &cells.y[i]) - all(p[kDiscY]);
-    const Floats distance = hn::Sqrt(dx * dx + dy * dy) + all(1e-6F);
-    const Floats nx = dx / distance, ny = dy / distance;
-    const CoveredPart part = coveredPart(radius - distance, hn::Abs(nx), hn::Abs(ny));
-    const Floats cover = part.share, edge = part.slope;
-    // Light is taken at two places of the part of the cell that the ball covers, along the radius.
-    const Floats rho = (distance + part.middle) * inverse_radius, spread = part.spread * inverse_radius;
-    const Floats z = half * (heightOnSphere(rho - spread) + heightOnSphere(rho + spread));
-    const Floats u = nx * rho, v = ny * rho;
-    Floats directed = light_x * u + light_y * v + light_z * z;
-    const Floats lit = with_shadow ? hn::IfThenElse(hn::Gt(directed, zero), all(1.0F), zero) : all(1.0F);
-    directed = directed * lit;
-    const Floats contrast = all(p[kDiscAmbient]) + directed - around;
-    const Floats edge_contrast = edge * contrast, lit_cover = lit * cover;
-    const Floats steep = light_z / hn::Max(z, all(0.25F)), inward = lit_cover * inverse_radius;
-    const Floats by_u = light_x - steep * u, by_v = light_y - steep * v;
-    const auto store = [&](DiscParameter parameter, Floats value)
-                           HWY_ATTR { hn::Store(value, d, &cells.slope[parameter][i]); };
-    store(kDiscX, edge_contrast * nx - inward * by_u);
-    store(kDiscY, edge_contrast * ny - inward * by_v);
-    store(kDiscRadius, edge_contrast - inward * (u * by_u + v * by_v));
-    store(kDiscAmbient, cover);
-    store(kDiscLightX, lit_cover * u);
-    store(kDiscLightY, lit_cover * v);
-    store(kDiscLightZ, lit_cover * z);
-    store(kDiscAround, all(1.0F) - cover);
-    hn::Store(cover, d, &cells.cover[i]);
-    hn::Store(hn::Load(d, &cells.value[i]) - (around + cover * contrast), d, &cells.residual[i]);
+    const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y;
+    ShadedCell sum{zero, zero, zero, zero, zero, zero, zero, zero};
+    Floats by_half_x = zero, by_half_y = zero;
+    for (int k = 0; k < motion.moments; ++k) {
+      const float at = (2.0F * static_cast<float>(k) + 1.0F) / static_cast<float>(motion.moments) - 1.0F;
+      const Floats x = dx - all(at * motion.half_x), y = dy - all(at * motion.half_y);
+      if (hn::AllTrue(d, hn::Gt(x * x + y * y, reach2))) continue;
+      const ShadedCell cell = shadedCell(disc, x, y);
+      sum.cover = sum.cover + share * cell.cover;
+      sum.above = sum.above + share * cell.above;
+      sum.by_x = sum.by_x + share * cell.by_x;
+      sum.by_y = sum.by_y + share * cell.by_y;
+      sum.by_radius = sum.by_radius + share * cell.by_radius;
+      sum.by_light_x = sum.by_light_x + share * cell.by_light_x;
+      sum.by_light_y = sum.by_light_y + share * cell.by_light_y;
+      sum.by_light_z = sum.by_light_z + share * cell.by_light_z;
+      by_half_x = by_half_x + all(at) * share * cell.by_x;
+      by_half_y = by_half_y + all(at) * share * cell.by_y;
+    }
+    storeCell(disc, sum, i, cells);
+    hn::Store(by_half_x, d, &cells.slope[kSmearHalfX][i]);
+    hn::Store(by_half_y, d, &cells.slope[kSmearHalfY][i]);
   }
 }
 
@@ -127,59 +197,6 @@ void cutAll(const CutEdge& edge, DiscCells& cells) {
   }
 }
 
-/// Sums over the given cells of value a b for one a and each b, always over kDiscLanes partial sums.
-template <std::size_t kCount, class A, class B>
-HWY_INLINE std::array<double, kCount> sumsOver(const DiscCells& cells, A a, B b) {
-  const Tag d;
-  alignas(64) std::array<std::array<float, kDiscLanes>, kCount> lanes;
-  for (std::size_t k = 0; k < kDiscLanes; k += hn::Lanes(d)) {
-    Floats sums[kCount];
-    for (std::size_t j = 0; j < kCount; ++j) sums[j] = hn::Zero(d);
-    for (std::size_t i = k; i < cells.count; i += kDiscLanes) {
-      const Floats weighted = hn::Load(d, &cells.given[i]) * a(i);
-      for (std::size_t j = 0; j < kCount; ++j) sums[j] = sums[j] + weighted * b(i, j);
-    }
-    for (std::size_t j = 0; j < kCount; ++j) hn::Store(sums[j], d, &lanes[j][k]);
-  }
-  std::array<double, kCount> totals{};
-  for (std::size_t j = 0; j < kCount; ++j)
-    for (const float lane : lanes[j]) totals[j] += static_cast<double>(lane);
-  return totals;
-}
-
-/// Row `kRow` of the normal equations, and those after it as far as `kRows`.
-template <std::size_t kRows, std::size_t kRow = 0>
-HWY_INLINE void sumRows(const DiscCells& cells, DiscSums& sums) {
-  if constexpr (kRow < kRows) {
-    const auto slope = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.slope[kRow][i]); };
-    const auto other = [&](std::size_t i, std::size_t j) HWY_ATTR {
-      return hn::Load(Tag(), j > kRow ? &cells.residual[i] : &cells.slope[j][i]);
-    };
-    const auto totals = sumsOver<kRow + 2>(cells, slope, other);
-    std::copy_n(totals.begin(), kRow + 1, sums.normal[kRow].begin());
-    sums.gradient[kRow] = totals[kRow + 1];
-    sumRows<kRows, kRow + 1>(cells, sums);
-  }
-}
-
-template <std::size_t kRows>
-HWY_INLINE void sumAll(const DiscCells& cells, DiscSums& sums) {
-  sumRows<kRows>(cells, sums);
-  const auto one = [](std::size_t) HWY_ATTR { return all(1.0F); };
-  const auto residual = [&](std::size_t i) HWY_ATTR { return hn::Load(Tag(), &cells.residual[i]); };
-  sums.count = sumsOver<1>(cells, one, [](std::size_t, std::size_t) HWY_ATTR { return all(1.0F); })[0];
-  sums.squares =
-      sumsOver<1>(cells, residual, [&](std::size_t i, std::size_t) HWY_ATTR { return residual(i); })[0];
-}
-
-void sumAllOfDisc(const DiscCells& cells, DiscSums& sums) {
-  sumAll<kDiscParameters>(cells, sums);
-}
-
-void sumAllOfCutDisc(const DiscCells& cells, DiscSums& sums) {
-  sumAll<kCutParameters>(cells, sums);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace helical
 HWY_AFTER_NAMESPACE();
@@ -189,8 +206,7 @@ namespace helical {
 
 HWY_EXPORT(evaluateAll);
 HWY_EXPORT(cutAll);
-HWY_EXPORT(sumAllOfDisc);
-HWY_EXPORT(sumAllOfCutDisc);
+HWY_EXPORT(smearAll);
 
 void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells) {
   HWY_DYNAMIC_DISPATCH(evaluateAll)(parameters, with_shadow, cells);
@@ -200,12 +216,9 @@ void cutDisc(const CutEdge& edge, DiscCells& cells) {
   HWY_DYNAMIC_DISPATCH(cutAll)(edge, cells);
 }
 
-void sumDisc(const DiscCells& cells, DiscSums& sums) {
-  HWY_DYNAMIC_DISPATCH(sumAllOfDisc)(cells, sums);
-}
-
-void sumCutDisc(const DiscCells& cells, DiscSums& sums) {
-  HWY_DYNAMIC_DISPATCH(sumAllOfCutDisc)(cells, sums);
+void smearDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow,
+               const DiscMotion& motion, DiscCells& cells) {
+  HWY_DYNAMIC_DISPATCH(smearAll)(parameters, with_shadow, motion, cells);
 }
 
 }  // namespace helical

@@ -5,7 +5,8 @@
 
 namespace helical {
 
-/// The parameters of DiscFit's model, in the order of its slopes; then those of an edge before the ball.
+/// The parameters of DiscFit's model, in the order of its slopes; then those of an edge before the ball,
+/// or of its motion.
 enum DiscParameter {
   kDiscX,
   kDiscY,
@@ -19,7 +20,10 @@ enum DiscParameter {
   kCutOffset = kDiscParameters,
   kCutTurn,
   kCutLevel,
-  kCutParameters
+  kCutParameters,
+  kSmearHalfX = kDiscParameters,
+  kSmearHalfY,
+  kSmearParameters
 };
 
 inline constexpr std::size_t kDiscCells = 8192;  ///< room for this many cells
@@ -47,6 +51,13 @@ struct CutEdge {
   float level = 0.0F;
 };
 
+/// The way of a ball that moved evenly while the shutter was open: from its middle, where the disc's centre
+/// stands, by a half of it back and forth. Taken at that many moments.
+struct DiscMotion {
+  float half_x = 0.0F, half_y = 0.0F;
+  int moments = 1;
+};
+
 struct DiscSums {
   std::array<std::array<double, kCutParameters>, kCutParameters> normal;  ///< lower triangle
   std::array<double, kCutParameters> gradient;
@@ -58,9 +69,13 @@ struct DiscSums {
 void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells);
 /// After evaluateDisc: the same with an edge before the disc, and the edge's slopes. `cover` is what is seen.
 void cutDisc(const CutEdge& edge, DiscCells& cells);
-/// Over the given cells, of the disc's parameters alone or of the edge's, too.
+/// As evaluateDisc, of a disc that moved, and the motion's slopes.
+void smearDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow,
+               const DiscMotion& motion, DiscCells& cells);
+/// Over the given cells, of the disc's parameters alone, or of the edge's or the motion's, too.
 void sumDisc(const DiscCells& cells, DiscSums& sums);
 void sumCutDisc(const DiscCells& cells, DiscSums& sums);
+void sumSmearedDisc(const DiscCells& cells, DiscSums& sums);
 
 // The same bits in every instruction set: no operation is fused, approximated or done in another order.
 

@@ -9,12 +9,14 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 // Of fitted discs in rendered flights, with balls of 2.5 to 6.5 px: what the fit makes of its residuals is
 // too little, more so where something hides a part; and the sampling of the outline, on as many cells as the
-// radius is long, is in no residual. Squared errors over these covariances are 0.9 to 1.3, of hidden balls up
-// to 2.
+// radius and the ball's way are long, is in no residual. Squared errors over these covariances are 0.9
+// to 1.3, of hidden balls up to 2.
 constexpr double kWhole = 0.99;  ///< share of a disc
 constexpr double kWholeScatter = 1.25;
 constexpr double kHiddenScatter = 3.0;
 constexpr double kOutlineVariance = 0.037 * 0.037;  ///< cells^3
+/// Of the way of a ball that moves: no shutter, light or hand is as even as the model.
+constexpr double kUnevenMotion = 0.002;
 
 bool isBefore(const ColouredRegion& a, const ColouredRegion& b) {
   if (a.region.area != b.region.area) return a.region.area > b.region.area;
@@ -72,9 +74,12 @@ Centroid discCentroid(const ColouredRegion& coloured, const Disc& disc, const Ce
   Centroid centroid;
   centroid.pixel = Eigen::Vector2d::Constant(cellOrigin(grid)) + size * disc.centre;
   centroid.radius_px = size * disc.radius;
+  const double way = 2.0 * disc.half_way.norm();
+  const Eigen::Vector2d uneven = 2.0 * kUnevenMotion * size * disc.half_way;
   const double fitted = disc.seen_share > kWhole ? kWholeScatter : kHiddenScatter;
   centroid.covariance = fitted * size * size * disc.covariance +
-                        kOutlineVariance / disc.radius * size * size * Eigen::Matrix2d::Identity();
+                        kOutlineVariance / (disc.radius + way) * size * size * Eigen::Matrix2d::Identity() +
+                        uneven * uneven.transpose();
   centroid.area_px = disc.seen_share * kPi * centroid.radius_px * centroid.radius_px;
   centroid.colour = coloured.colour;
   return centroid;

@@ -26,7 +26,7 @@ Cell cellOf(const SmearCells& cells, std::size_t i) {
 
 }  // namespace
 
-Smear measureSmear(const SmearCells& cells, double least_elongation) {
+Smear measureSmear(const SmearCells& cells) {
   Smear smear;
   double sum = 0.0;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -46,12 +46,16 @@ Smear measureSmear(const SmearCells& cells, double least_elongation) {
   const double turn = std::sqrt(half * half + moments(0, 1) * moments(0, 1));
   const double longer = mean + turn, shorter = mean - turn;
   if (!(shorter > 0.0)) return smear;
-  if (!(longer > least_elongation * shorter)) return smear;
+  smear.middle = middle;
+  smear.longer = longer;
+  smear.shorter = shorter;
+  if (!(turn > 0.0)) return smear;
   smear.elongation = longer / shorter;
   // Of the two forms of the eigenvector, that which does not cancel.
   Eigen::Vector2d axis =
       half > 0.0 ? Eigen::Vector2d(half + turn, moments(0, 1)) : Eigen::Vector2d(moments(0, 1), turn - half);
   axis.normalize();
+  smear.axis = axis;
   double skew = 0.0;
   for (std::size_t i = 0; i < cells.x.size(); ++i) {
     const Cell cell = cellOf(cells, i);

@@ -17,6 +17,9 @@ struct SmearCells {
 struct Smear {
   double elongation = 1.0;  ///< second moments, along the longer axis over along the shorter one
   bool one_sided = true;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< centre of gravity, from the cells' origin
+  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();   ///< the longer one
+  double longer = 0.0, shorter = 0.0;                ///< second moments along the axes [cells^2]
   /// What the motion adds to the covariance of the centre of gravity [cells^2].
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 
@@ -24,8 +27,7 @@ struct Smear {
   bool isOver(double least_elongation) const { return elongation > least_elongation && !one_sided; }
 };
 
-/// From second moments and the skewness of the shorter axis. Where there is no ball, and of what is no longer
-/// than `least_elongation`, no smear.
-Smear measureSmear(const SmearCells& cells, double least_elongation);
+/// From second moments and the skewness of the shorter axis. Where there is no ball, no smear: moments of 0.
+Smear measureSmear(const SmearCells& cells);
 
 }  // namespace helical

@@ -23,22 +23,47 @@ Colour sampleAt(const BallPicture& ball, double x, double y) {
 
 }  // namespace
 
-Picture drawBall(const BallPicture& ball, double noise, Random& random) {
-  constexpr int kSide = 41, kSamples = 16;
-  Picture picture(kSide, kSide);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
-      Colour sum{};
-      for (int j = 0; j < kSamples; ++j)
-        for (int i = 0; i < kSamples; ++i) {
-          const Colour c = sampleAt(ball, x - 0.5 + (i + 0.5) / kSamples, y - 0.5 + (j + 0.5) / kSamples);
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += c[k] / (kSamples * kSamples);
-        }
-      for (std::size_t k = 0; k < 3; ++k)
+std::vector<double> lightOf(const BallPicture& ball) {
+  const double length = std::hypot(ball.way_x, ball.way_y);
+  const int moments = 1 + static_cast<int>(std::ceil(2.0 * length));
+  const int samples = moments == 1 ? 16 : std::max(4, 16 / moments);  // each way
+  const auto side = static_cast<std::size_t>(ball.side);
+  std::vector<double> light(3 * side * side);
+  for (int moment = 0; moment < moments; ++moment) {
+    BallPicture there = ball;
+    const double at = (moment + 0.5) / moments - 0.5;
+    there.x += at * ball.way_x;
+    there.y += at * ball.way_y;
+    for (int y = 0; y < ball.side; ++y)
+      for (int x = 0; x < ball.side; ++x) {
+        double* pixel = &light[3 * (static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x))];
+        const bool is_even =
+            std::hypot(x - there.x, y - there.y) > ball.radius + 1.0 && ball.hidden_from > 1e8;
+        const int n = is_even ? 1 : samples;
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) {
+            const Colour c = sampleAt(there, x - 0.5 + (i + 0.5) / n, y - 0.5 + (j + 0.5) / n);
+            for (std::size_t k = 0; k < 3; ++k) pixel[k] += c[k] / (n * n * moments);
+          }
+      }
+  }
+  return light;
+}
+
+Picture exposed(const std::vector<double>& light, int side, double noise, Random& random) {
+  Picture picture(side, side);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      for (int k = 0; k < 3; ++k) {
+        const double level = light[static_cast<std::size_t>(3 * (y * side + x) + k)];
         picture.pixel(x, y)[k] =
-            static_cast<std::uint8_t>(std::clamp(std::lround(sum[k] + noise * random.normal()), 0L, 255L));
-    }
+            static_cast<std::uint8_t>(std::clamp(std::lround(level + noise * random.normal()), 0L, 255L));
+      }
   return picture;
+}
+
+Picture drawBall(const BallPicture& ball, double noise, Random& random) {
+  return exposed(lightOf(ball), ball.side, noise, random);
 }
 
 }  // namespace helical::test

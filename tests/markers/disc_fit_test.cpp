@@ -123,6 +123,7 @@ TEST(DiscFit, RepeatsBitForBitInEveryInstructionSet) {
       BallPicture ball{20.0 + same.uniform(-0.5, 0.5), 20.0 + same.uniform(-0.5, 0.5), same.uniform(2.5, 9.0),
                        0.5};
       if (i % 2 == 1) ball.hidden_from = 0.4 * ball.radius;
+      if (i % 4 == 2) ball.way_x = ball.radius, ball.way_y = 0.5 * ball.radius;
       const test::Picture picture = test::drawBall(ball, 3.0, same);
       for (const Region& region : referenceRegions(picture.view(), nullptr, {}, {}))
         if (const auto disc = fit.fit(CellGrid(picture.view()), region)) found.push_back(*disc);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "engine/markers/disc_kernels.h"
+
+namespace helical {
+
+/// The picture of a shaded ball that moved evenly while the shutter was open: DiscFit's model, meant over its
+/// way. Levenberg and Marquardt over all of it. Repeats bit for bit. No allocation.
+struct SmearedDisc {
+  static constexpr int kSize = kSmearParameters;
+
+  std::array<float, kDiscParameters> disc{};  ///< in the middle of its way
+  DiscMotion motion;
+  double squares = 0.0;  ///< of the residuals over the given cells
+  double count = 0.0;    ///< of the given cells
+
+  double halfLength() const;
+  /// To the least squares near to where it stands, with as many moments as its way may take.
+  void descend(DiscCells& cells, int steps);
+  /// Fills the cells' residuals, slopes and cover, and sums over them.
+  DiscSums measure(DiscCells& cells) const;
+  SmearedDisc moved(const Eigen::Matrix<double, kSize, 1>& change) const;
+  /// Of the centre, of cells just measured, whose residuals have at least that variance.
+  Eigen::Matrix2d covariance(const DiscCells& cells, double least_variance) const;
+};
+
+}  // namespace helical

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/markers/disc_normal.h"
 
@@ -39,9 +40,10 @@ constexpr double kCutTail = 3.0, kLeastSeen = 0.3;
 /// may be smeared; from the third on, it is not asked whether it is a disc, which noise makes longish by no
 /// more.
 constexpr double kMaybeSmeared = 1.06, kLeastSmear = 1.07, kSurelySmeared = 1.25;
-constexpr double kMaybeMoved = 4.5;   ///< chi-square of what a motion leaves on both sides of the outline
-constexpr double kRim = 1.5;          ///< cells, on either side
-constexpr double kSurelyLong = 2.8;   ///< elongation: nothing hides so much of a ball that is still found
+constexpr double kMaybeMoved = 4.5;  ///< chi-square of what a motion leaves on both sides of the outline
+constexpr double kRim = 1.5;         ///< cells, on either side
+constexpr double kSurelyLong = 2.8;  ///< elongation: nothing hides so much of a ball that is still found
+constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kRatherCut = 8.0;    ///< chi-square: what is as well hidden as moving is taken for hidden
 constexpr double kSurelyOne = 1.4;    ///< misfit of a smeared ball that is no pair
 constexpr double kSurelyMoved = 9.0;  ///< chi-square over a ball at rest
@@ -139,7 +141,7 @@ std::optional<std::array<Disc, 2>> DiscFit::fitTwo(const CellGrid& grid, const R
 }
 
 bool DiscFit::isOneMoving(const CellGrid& grid) {
-  const auto ball = fitMoving(grid, smearOfRegion(), nullptr);
+  const auto ball = fitMoving(grid, smearOfRegion(), nullptr, kAny);
   return ball && ball->misfit < kSurelyOne;
 }
 
@@ -188,7 +190,7 @@ Smear DiscFit::smearOfRegion() {
 }
 
 std::optional<SmearedBall> DiscFit::fitMoving(const CellGrid& grid, const Smear& smear,
-                                              const Parameters* at_rest) {
+                                              const Parameters* at_rest, double most_excess) {
   if (!(smear.shorter > 0.0)) return std::nullopt;
   const ValueWindow values = window(region_);
   SmearStart start;
@@ -203,9 +205,9 @@ std::optional<SmearedBall> DiscFit::fitMoving(const CellGrid& grid, const Smear&
     disc[kDiscX] += static_cast<float>(left_);
     disc[kDiscY] += static_cast<float>(top_);
   }
-  const auto ball = smear_fit_.fit(grid, axis_, start, at_rest != nullptr ? &disc : nullptr);
+  const auto ball = smear_fit_.fit(grid, axis_, start, at_rest != nullptr ? &disc : nullptr, most_excess);
   const bool is_ball = ball && ball->contrast > kLeastContrast && ball->misfit < kCutTail &&
-                       (at_rest == nullptr || ball->gain > kSurelyMoved);
+                       ball->gain > kSurelyMoved && !isDoubtful(*ball, start, smear);
   return is_ball ? ball : std::nullopt;
 }
 
@@ -226,13 +228,12 @@ std::optional<Disc> DiscFit::fitColour(const CellGrid& grid) {
   const std::span outline(room.data(), static_cast<std::size_t>(traceOutline(room)));
   if (!is_smeared && descend(kSteps) && isPlausible() && fitsEverywhere()) {
     if (!neighbour_ && mayHaveMoved(smear))
-      if (const auto ball = fitMoving(grid, smear, &p_)) return discOf(*ball);
+      if (const auto ball = fitMoving(grid, smear, &p_, kAny)) return discOf(*ball);
     if (const auto disc = result()) return disc;
   }
   if (!neighbour_)
     if (const auto disc = fitMovingOrCut(grid, smear)) return disc;
   if (has_sides && smear.isOver(kLeastSmear)) return std::nullopt;
-  smear_.setZero();
   start(neighbour_ ? binary_ : bestCircle(outline, binary_.radius).value_or(binary_));
   for (int round = 0; round < kRounds; ++round) {
     leaveOutHidden();
@@ -263,15 +264,13 @@ double DiscFit::motionInResiduals() {
 }
 
 std::optional<Disc> DiscFit::fitMovingOrCut(const CellGrid& grid, const Smear& smear) {
-  const auto ball = fitMoving(grid, smear, nullptr);
-  const bool is_long = smear.elongation > kSurelyLong;
-  const bool has_sides = region_.area >= kFewestSmeared && smear.isOver(kLeastSmear);
+  const bool is_smeared = region_.area >= kFewestSmeared && smear.isOver(kLeastSmear);
   // Of a large ball only one that is seen nearly whole is believed, which no edge hides a part of.
-  double excess = 0.0;
   std::optional<Disc> cut;
-  if (binary_.radius < kLarge && !(ball && is_long) && !has_sides) cut = fitCut(excess);
-  if (!ball || (cut && excess < ball->excess + kRatherCut)) return cut;
-  return discOf(*ball);
+  double excess = kAny;
+  if (binary_.radius < kLarge && !is_smeared && smear.elongation < kSurelyLong) cut = fitCut(excess);
+  const auto ball = fitMoving(grid, smear, nullptr, cut ? excess - kRatherCut : kAny);
+  return ball && (!cut || ball->excess < excess - kRatherCut) ? discOf(*ball) : cut;
 }
 
 std::optional<Disc> DiscFit::fitCut(double& excess) {
@@ -600,6 +599,13 @@ bool DiscFit::isDoubtful(const Disc& disc) const {
   return disc.seen_share < kLargeSeen ||
          std::abs(disc.radius - binary_.radius) > kLargeApart * binary_.radius ||
          dx * dx + dy * dy > kLargeApart * kLargeApart * binary_.radius * binary_.radius;
+}
+
+bool DiscFit::isDoubtful(const SmearedBall& ball, const SmearStart& start, const Smear& smear) const {
+  if (binary_.radius < kLarge) return false;
+  const double apart = kLargeApart * start.radius;
+  return smear.one_sided || std::abs(ball.radius - start.radius) > apart ||
+         (ball.centre - start.middle).squaredNorm() > apart * apart;
 }
 
 bool DiscFit::isPlausible() const {

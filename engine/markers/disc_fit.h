@@ -68,7 +68,8 @@ class DiscFit {
   float givenAt(double x, double y) const;
   std::optional<Disc> fitWindow(const CellGrid& grid);
   std::optional<Disc> fitColour(const CellGrid& grid);
-  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear, const Parameters* at_rest);
+  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear, const Parameters* at_rest,
+                                       double most_excess);
   bool isOneMoving(const CellGrid& grid);
   std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear);
   std::optional<Disc> fitCut(double& excess);
@@ -93,6 +94,7 @@ class DiscFit {
   int traceOutline(std::span<OutlinePoint> outline) const;
   bool isPlausible() const;
   bool isDoubtful(const Disc& disc) const;
+  bool isDoubtful(const SmearedBall& ball, const SmearStart& start, const Smear& smear) const;
   std::size_t placeOf(std::size_t cell) const;
 
   int left_ = 0;

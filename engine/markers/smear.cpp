@@ -65,7 +65,9 @@ Smear measureSmear(const SmearCells& cells) {
   }
   const double limit = kMostSkew * kMostSkew * (smear.elongation - 1.0);
   smear.one_sided = smear.elongation < kMostHidden && skew * skew > limit * shorter * shorter * shorter;
-  smear.covariance = kSmearSigma * kSmearSigma * 12.0 * (longer - shorter) * axis * axis.transpose();
+  const double variance = kSmearSigma * kSmearSigma * 12.0 * (longer - shorter);
+  smear.covariance = variance * (smear.one_sided ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
+                                                 : Eigen::Matrix2d(axis * axis.transpose()));
   return smear;
 }
 

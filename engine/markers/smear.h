@@ -20,7 +20,8 @@ struct Smear {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< centre of gravity, from the cells' origin
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();   ///< the longer one
   double longer = 0.0, shorter = 0.0;                ///< second moments along the axes [cells^2]
-  /// What the motion adds to the covariance of the centre of gravity [cells^2].
+  /// What the motion adds to the covariance of the centre of gravity, or in every direction what made it
+  /// one-sided [cells^2].
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 
   /// Whether it is a smeared ball, if it is longer than that.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/markers/cut_disc.h"
 #include "engine/markers/disc_normal.h"
@@ -13,7 +14,9 @@ constexpr double kReach = 3.0;      ///< cells around the way that are fitted, t
 constexpr double kPaleEnds = 0.75;  ///< of the half way: as far its ends are too pale to be found
 constexpr double kLeastHalf = 0.4;  ///< cells: with no way at all, no direction is better than another
 constexpr double kLeastVariance = 0.125, kLeastNoise = 0.7;  ///< as of discs at rest
-constexpr int kSteps = 14;
+constexpr int kFirstSteps = 5, kSteps = 10;
+/// After the first steps, what the excess may still fall by: to a share of it, and by so much a cell.
+constexpr double kStillToFall = 2.0, kAtFirst = 1.0;
 constexpr double kShort = 0.25;                                ///< radii of a half way
 constexpr double kMostHalf = 5.0;                              ///< radii
 constexpr double kSmaller = 0.5, kLarger = 1.6, kApart = 1.0;  ///< radii at the start, and cells
@@ -87,21 +90,26 @@ double SmearFit::noiseAround() {
   return std::max(kLeastNoise, 1.4826 * static_cast<double>(*middle));
 }
 
+double SmearFit::squaresAtRest(const std::array<float, kDiscParameters>& disc) {
+  evaluateDisc(disc, hasShadow(disc), *cells_);
+  DiscSums sums;
+  sumDisc(*cells_, sums);
+  return sums.squares;
+}
+
 std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vector3d& axis,
                                          const SmearStart& start,
-                                         const std::array<float, kDiscParameters>* at_rest) {
+                                         const std::array<float, kDiscParameters>* at_rest,
+                                         double most_excess) {
   if (!readAlong(grid, axis, start)) return std::nullopt;
   DiscCells& cells = *cells_;
   SmearedDisc smeared = startingFrom(start);
-  DiscSums sums;
-  double squares_at_rest = 0.0;
+  double squares_at_rest = std::numeric_limits<double>::infinity();
   if (at_rest != nullptr) {
     std::array<float, kDiscParameters> disc = *at_rest;
     disc[kDiscX] -= static_cast<float>(left_);
     disc[kDiscY] -= static_cast<float>(top_);
-    evaluateDisc(disc, hasShadow(disc), cells);
-    sumDisc(cells, sums);
-    squares_at_rest = sums.squares;
+    squares_at_rest = squaresAtRest(disc);
     // A ball on a longer way is no start: its light makes up for what is no ball at rest.
     if (start.half.squaredNorm() < kShort * kShort * start.radius * start.radius) {
       const float radius = smeared.disc[kDiscRadius];
@@ -109,8 +117,20 @@ std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vect
       smeared.disc[kDiscRadius] = std::min(radius, disc[kDiscRadius]);
     }
   }
+  smeared.descend(cells, kFirstSteps);
+  smeared.measure(cells);
+  const double variance = std::pow(noiseAround(), 2);
+  if (smeared.squares > squares_at_rest ||
+      smeared.squares / variance - smeared.count > kStillToFall * most_excess + kAtFirst * smeared.count)
+    return std::nullopt;
   smeared.descend(cells, kSteps);
-  sums = smeared.measure(cells);
+  return ballOf(smeared, start, squares_at_rest);
+}
+
+std::optional<SmearedBall> SmearFit::ballOf(const SmearedDisc& smeared, const SmearStart& start,
+                                            double squares_at_rest) {
+  DiscCells& cells = *cells_;
+  const DiscSums sums = smeared.measure(cells);
   SmearedBall ball;
   ball.centre = {left_ + static_cast<double>(smeared.disc[kDiscX]),
                  top_ + static_cast<double>(smeared.disc[kDiscY])};
@@ -125,8 +145,8 @@ std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vect
   ball.gain = (squares_at_rest - sums.squares) / std::max(variance, kLeastVariance);
   ball.covariance = smeared.covariance(cells, kLeastVariance);
   for (std::size_t i = 0; i < real_count_; ++i) ball.seen += cells.cover[i];
-  const double half = ball.half.norm();
-  const bool is_plausible = half < kMostHalf * ball.radius && ball.radius > kSmaller * start.radius &&
+  const bool is_plausible = ball.half.norm() < kMostHalf * ball.radius &&
+                            ball.radius > kSmaller * start.radius &&
                             ball.radius < kLarger * start.radius + 1.0 &&
                             (ball.centre - start.middle).norm() < start.radius + kApart;
   return is_plausible ? std::optional(ball) : std::nullopt;

@@ -41,14 +41,18 @@ class SmearFit {
   SmearFit();
 
   /// Values are a cell's colours along `axis`. `at_rest`, if given, is what was fitted before as a ball at
-  /// rest, in cells of the image. Nothing if what comes out is no ball on its way, or too large.
+  /// rest, in cells of the image. Nothing if what comes out is no ball on its way, or too large, or explains
+  /// no more than the ball at rest, or soon seems to come out at more than `most_excess`.
   std::optional<SmearedBall> fit(const CellGrid& grid, const Eigen::Vector3d& axis, const SmearStart& start,
-                                 const std::array<float, kDiscParameters>* at_rest);
+                                 const std::array<float, kDiscParameters>* at_rest, double most_excess);
 
  private:
   bool readAlong(const CellGrid& grid, const Eigen::Vector3d& axis, const SmearStart& start);
   SmearedDisc startingFrom(const SmearStart& start) const;
   double noiseAround();
+  double squaresAtRest(const std::array<float, kDiscParameters>& disc);
+  std::optional<SmearedBall> ballOf(const SmearedDisc& smeared, const SmearStart& start,
+                                    double squares_at_rest);
 
   int left_ = 0;  ///< of the window, which parameters are counted from
   int top_ = 0;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -127,6 +128,29 @@ TEST(SmearedBall, HardlyMovingIsAsSureAsAtRest) {
       EXPECT_LT(moving.along.sigma, 1.2 * rest.along.sigma);
       EXPECT_LT(moving.across.sigma, 1.2 * rest.across.sigma);
     }
+}
+
+TEST(SmearedBall, LargeAndHalfHiddenKeepsItsCentreOfGravityWhichIsLessSure) {
+  Random random(3);
+  test::BallPicture ball;
+  ball.radius = 20.0;
+  ball.side = 101;
+  ball.x = ball.y = 50.0;
+  ball.way_x = 16.0;
+  ball.hidden_from = 5.0;
+  ball.hidden_side = 0.7;
+  const test::Picture picture = test::drawBall(ball, 2.0, random);
+  MarkerOptions options;
+  std::array<Observation, 2> found;
+  for (const CentroidEstimator estimator : {CentroidEstimator::kBinary, CentroidEstimator::kDisc}) {
+    options.estimator = estimator;
+    Extractor extractor(options);
+    extractor.disableBackground();
+    extractor.extract(picture.view(), found[estimator == CentroidEstimator::kDisc ? 1 : 0]);
+  }
+  ASSERT_EQ(found[1].count, 1);
+  EXPECT_EQ(found[1].centroids[0].pixel, found[0].centroids[0].pixel);
+  EXPECT_GT(found[1].centroids[0].covariance.trace(), 10.0 * found[0].centroids[0].covariance.trace());
 }
 
 }  // namespace

@@ -251,8 +251,9 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
       "Verdict: good, usable or bad, and why. A bad calibration is not written (exit code 1).\n"
       "The scale comes from body coordinates, from two given poses, or from --scale; otherwise it is "
       "arbitrary.\n"
-      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say: how much later\n"
-      "than the first each of them saw is found from how the target moves, told, and taken into account.\n"
+      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say, and stamps may be\n"
+      "up to a second off: how much later than the first each of them saw is found from how the target moves,\n"
+      "told, and taken into account.\n"
       "Focal lengths that were found go into the rig file, and points that are its balls.");
   command->callback([arguments, &exit_code] { exit_code = calibrate(*arguments); });
 }

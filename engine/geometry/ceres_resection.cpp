@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/geometry/camera_perturbation.h"
+#include "engine/geometry/quiet_ceres.h"
 
 namespace helical {
 namespace {
@@ -89,6 +90,7 @@ ResectionSolution solveByCeres(const CameraModel& camera, std::span<const WorldP
   solver.parameter_tolerance = 1e-10;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
+  quietCeres();
   ceres::Solve(solver, &problem, &summary);
   return {perturbCamera(initial, perturbation), static_cast<int>(summary.iterations.size()),
           statusOf(summary)};

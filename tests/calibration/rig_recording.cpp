@@ -39,9 +39,10 @@ Eigen::Vector3d handAt(double t) {
           0.7 + 0.4 * std::sin(0.9 * t + 1.0)};
 }
 
-RigidTransform wristAt(double t) {
+RigidTransform wristAt(double t, const Eigen::Vector3d& reach) {
+  const Eigen::Vector3d middle(0.0, 0.0, 0.7);
   return {expSO3({0.9 * std::sin(0.8 * t), 0.9 * std::sin(1.1 * t + 2.0), 1.5 * std::sin(0.5 * t)}),
-          handAt(t)};
+          middle + reach.cwiseProduct(handAt(t) - middle)};
 }
 
 /// Points at a time; `in_body` where the recording has body coordinates.
@@ -68,7 +69,7 @@ MadeRecording record(const Target& target, const RecordingOptions& options, std:
       const double shift = options.jitter_s > 0.0 ? random.uniform(-options.jitter_s, options.jitter_s) : 0.0;
       const double time = (k + phase[static_cast<std::size_t>(c)]) / options.rate_hz + shift;
       const double late = options.late_s.empty() ? 0.0 : options.late_s[static_cast<std::size_t>(c)];
-      const RigidTransform pose = target.moves ? wristAt(time + late) : RigidTransform{};
+      const RigidTransform pose = target.moves ? wristAt(time + late, options.reach) : RigidTransform{};
       const RigCamera& camera = made.cameras[static_cast<std::size_t>(c)];
       for (std::size_t m = 0; m < target.in_body.size(); ++m) {
         const auto pixel = camera.model.project(*camera.camera_from_world * (pose * target.in_body[m]));

@@ -18,6 +18,7 @@ struct RecordingOptions {
   double jitter_s = 0.0;  ///< each exposure is off by up to it; time stamps tell the truth
   double dropout = 0.05;
   bool together = true;  ///< else each camera exposes at a time of its own
+  Eigen::Vector3d reach{1.0, 1.0, 1.0};  ///< of the hand's way, over the usual one
   std::vector<double>
       late_s;  ///< of each camera: it exposes so much later than its stamps say; empty: at them
 };

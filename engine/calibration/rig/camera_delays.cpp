@@ -64,6 +64,10 @@ DelayNoise noiseAfterDelay(Timing timing, double periods) {
   return {1.0 + 1.5 * square * (square - 1.0), 3.0 * periods * (2.0 * square - 1.0)};
 }
 
+bool beyondDelayReach(const SightingTable& table, std::size_t camera) {
+  return !table.late_s.empty() && std::abs(table.late_s[camera]) > 0.99 * kDelayReachPeriods * table.period_s;
+}
+
 double freeShare(const SightingTable& table) {
   double residuals = 0.0, unknowns = 0.0;
   std::int32_t item = -1;

@@ -38,6 +38,9 @@ DelayNoise noiseAfterDelay(Timing timing, double periods);
 /// Delays that a track's parabola can tell: more, and what a camera saw belongs to another frame.
 constexpr double kDelayReachPeriods = 1.25;
 
+/// Whether a camera's delay is as long as can be told, so that the true one may be longer.
+bool beyondDelayReach(const SightingTable& table, std::size_t camera);
+
 /// What share of the inliers' residuals the points' or body poses' own unknowns leave: where two cameras see
 /// a light, a quarter.
 double freeShare(const SightingTable& table);

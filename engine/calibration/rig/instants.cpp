@@ -11,6 +11,7 @@ namespace helical {
 namespace {
 
 constexpr double kSameStamp = 2e-6;  // s
+constexpr long kTellingFrames = 20;  // of a camera: fewer say nothing of its rhythm
 constexpr double kLongestGap = 2.5;  // periods
 // A third of false centroids makes half of the steps false ones: the usual step is that of the slower of the
 // others.
@@ -90,7 +91,7 @@ Rhythm rhythmOf(const PointRows& rows, int cameras) {
   // Rows are in order of time: stamps of a camera, and whether another camera has the same one.
   std::vector<double> last(static_cast<std::size_t>(cameras), -1e300);
   std::vector<double> gaps;
-  long frames = 0, shared = 0;
+  std::vector<long> frames(last.size(), 0), shared(last.size(), 0);
   std::vector<bool> present(static_cast<std::size_t>(cameras));
   for (std::size_t i = 0; i < rows.rows.size();) {
     std::size_t j = i;
@@ -104,13 +105,20 @@ Rhythm rhythmOf(const PointRows& rows, int cameras) {
       if (last[camera] > -1e299) gaps.push_back(rows.rows[j].time_s - last[camera]);
       last[camera] = rows.rows[j].time_s;
     }
-    frames += count;
-    shared += count > 1 ? count : 0;
+    for (std::size_t c = 0; c < present.size(); ++c) {
+      frames[c] += present[c] ? 1 : 0;
+      shared[c] += present[c] && count > 1 ? 1 : 0;
+    }
     i = j;
   }
   Rhythm rhythm;
   rhythm.period_s = quantileOf(gaps, 0.5);
-  rhythm.shared_stamps = frames > 0 ? static_cast<double>(shared) / static_cast<double>(frames) : 0.0;
+  const auto share = [](long part, long all) { return static_cast<double>(part) / static_cast<double>(all); };
+  const long all = std::accumulate(frames.begin(), frames.end(), 0L);
+  if (all > 0) rhythm.shared_stamps = share(std::accumulate(shared.begin(), shared.end(), 0L), all);
+  for (std::size_t c = 0; c < frames.size(); ++c)
+    if (frames[c] >= kTellingFrames)
+      rhythm.fewest_shared_stamps = std::min(rhythm.fewest_shared_stamps, share(shared[c], frames[c]));
   return rhythm;
 }
 

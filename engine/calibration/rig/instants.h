@@ -25,6 +25,7 @@ struct InstantRow {
 struct Rhythm {
   double period_s = 0.0;       ///< median between a camera's frames
   double shared_stamps = 0.0;  ///< share of frames whose time stamp another camera has, too
+  double fewest_shared_stamps = 1.0;  ///< the same of the camera that has the fewest of them
 };
 
 Rhythm rhythmOf(const PointRows& rows, int cameras);

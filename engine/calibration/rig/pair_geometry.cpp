@@ -46,13 +46,14 @@ double medianParallaxDeg(std::span<const Eigen::Vector2d> a, std::span<const Eig
 }  // namespace
 
 std::optional<PairGeometry> relatePair(std::span<const Eigen::Vector2d> bearings_a,
-                                       std::span<const Eigen::Vector2d> bearings_b, double tolerance) {
+                                       std::span<const Eigen::Vector2d> bearings_b, double tolerance,
+                                       int samples) {
   if (bearings_a.size() < kFewestPoints) return std::nullopt;
   const auto a = toCv(bearings_a), b = toCv(bearings_b);
   const cv::Mat identity = cv::Mat::eye(3, 3, CV_64F);
   cv::Mat mask;
   const cv::Mat essential =
-      cv::findEssentialMat(a, b, identity, cv::RANSAC, kConfidence, tolerance, kRandomSamples, mask);
+      cv::findEssentialMat(a, b, identity, cv::RANSAC, kConfidence, tolerance, samples, mask);
   if (essential.rows != 3 || essential.cols != 3) return std::nullopt;
   cv::Mat rotation, translation;
   PairGeometry pair;

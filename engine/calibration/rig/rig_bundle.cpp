@@ -12,6 +12,7 @@
 #include "engine/calibration/rig/camera_delays.h"
 #include "engine/calibration/rig/sighting_derivatives.h"
 #include "engine/geometry/camera_perturbation.h"
+#include "engine/geometry/quiet_ceres.h"
 
 namespace helical {
 namespace {
@@ -272,6 +273,7 @@ class Bundle {
     solver.num_threads = 1;  // the order of sums, and with it the last bit, depends on it
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
+    quietCeres();
     ceres::Solve(solver, &problem_, &summary);
     if (summary.IsSolutionUsable()) takeOver();
     return 2.0 * summary.final_cost;

@@ -9,6 +9,7 @@
 #include "engine/calibration/rig/camera_delays.h"
 #include "engine/calibration/rig/free_body.h"
 #include "engine/calibration/rig/quantile.h"
+#include "engine/calibration/rig/recording_doubts.h"
 #include "engine/calibration/rig/rig_covariance.h"
 #include "engine/calibration/rig/rig_frame.h"
 #include "engine/calibration/rig/rig_solution.h"
@@ -53,10 +54,9 @@ CalibratedCamera reportCamera(const RigSolution& s, std::size_t index,
   c.reprojection_rms_px = inliers > 0 ? std::sqrt(squares / static_cast<double>(inliers)) : 0.0;
   c.image_parts = static_cast<int>(parts.size());
   if (c.camera_from_world) c.distance_m = medianDistance(s, index);
-  if (!s.table.late_s.empty()) {
-    c.late_s = s.table.late_s[index];
-    c.beyond_reach = std::abs(c.late_s) > 0.99 * kDelayReachPeriods * s.table.period_s;
-  }
+  if (!s.stamps_late_s.empty()) c.late_s = s.stamps_late_s[index];
+  if (!s.table.late_s.empty()) c.late_s += s.table.late_s[index];
+  c.beyond_reach = beyondDelayReach(s.table, index);
   c.covariance = covariance;
   if (covariance) {
     const auto largest = [](const Eigen::Matrix3d& block) {
@@ -66,6 +66,15 @@ CalibratedCamera reportCamera(const RigSolution& s, std::size_t index,
     c.position_sigma_m = largest(covariance->bottomRightCorner<3, 3>());
   }
   return c;
+}
+
+/// The first placed camera is the one whose stamps are taken for right.
+void countDelaysFromFirst(RigCalibration& result) {
+  const auto first = std::find_if(result.cameras.begin(), result.cameras.end(),
+                                  [](const CalibratedCamera& c) { return c.camera_from_world.has_value(); });
+  if (first == result.cameras.end()) return;
+  const double of_first = first->late_s;
+  for (CalibratedCamera& c : result.cameras) c.late_s -= c.camera_from_world ? of_first : 0.0;
 }
 
 void reportBody(const FreeBody& body, const RigCovariance& covariance, RigCalibration& result) {
@@ -123,7 +132,7 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
                             const RigCalibrationOptions& options, const ProgressCallback& progress) {
   refuseContradictions(cameras, rows, file, options);
   const std::size_t given = givenCount(cameras);
-  RigSolution s = solveLikeliest(bringTogether(std::move(rows), cameras, file), cameras, options, progress);
+  RigSolution s = solveLikeliest(std::move(rows), cameras, file, options, progress);
   const bool body = s.table.kind == TargetKind::kBody;
   RigCalibration result;
   result.metric = body || given > 1 || options.scale;
@@ -149,7 +158,8 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
   result.items = s.table.items;
   result.thinned_by = s.table.thinned_by;
   result.unmatched = s.table.unmatched;
-  result.delays = !s.table.late_s.empty();
+  result.delays = !s.table.late_s.empty() || !s.stamps_late_s.empty();
+  result.along_a_line = sawOnlyALine(s);
   const bool scale_is_measured = body || given > 1;
   const RigCovariance covariance =
       rigCovariance(s.state, s.cameras, s.table,
@@ -160,11 +170,15 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
                         : unitDistance(s.state),
                     s.body ? &*s.body : nullptr);
   result.sigma_px = covariance.sigma_px;
+  const std::vector<double> near_misses = nearMisses(s);
   double farthest = 0.0;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     result.cameras.push_back(reportCamera(s, c, covariance.cameras[c]));
+    result.cameras.back().near_misses = near_misses[c];
+    result.cameras.back().moved = whenMoved(s, c);
     farthest = std::max(farthest, result.cameras.back().distance_m);
   }
+  countDelaysFromFirst(result);
   if (s.body) reportBody(*s.body, covariance, result);
   result.given_off_deg = off.degrees;
   result.given_off_share = farthest > 0.0 ? off.metres / farthest : 0.0;

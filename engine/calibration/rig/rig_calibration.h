@@ -29,6 +29,12 @@ struct RigCalibrationOptions {
 enum class RigVerdict { kGood, kUsable, kBad };
 const char* nameOf(RigVerdict verdict);
 
+/// A camera fits the others only before, or only after, an instant of the recording.
+struct CameraMove {
+  double at_s = 0.0;
+  bool fits_before = false;
+};
+
 struct CalibratedCamera {
   std::string label;
   bool given = false;                               ///< its pose was given and stands
@@ -37,6 +43,8 @@ struct CalibratedCamera {
   double reprojection_rms_px = 0.0;                 ///< length of the residual, over the inliers
   long observations = 0;                            ///< sightings that took part, rejected ones included
   long rejected = 0;
+  double near_misses = 0.0;  ///< what twice as wide a gate would let in besides, over the inliers
+  std::optional<CameraMove> moved;
   double position_sigma_m = 0.0;  ///< largest axis
   double orientation_sigma_deg = 0.0;
   double distance_m = 0.0;    ///< median, to what it saw
@@ -65,6 +73,7 @@ struct RigCalibration {
   int thinned_by = 1;
   long unmatched = 0;
   double sigma_px = 0.0;         ///< of a pixel, per axis
+  bool along_a_line = false;     ///< no camera saw the target leave one
   bool delays = false;           ///< cameras were not exposed together: their `late_s` is taken off
   double given_off_deg = 0.0;    ///< how far given poses and the recording disagree
   double given_off_share = 0.0;  ///< the same of places, over the distance to what was seen

@@ -10,6 +10,7 @@
 #include "engine/calibration/rig/chain_points.h"
 #include "engine/calibration/rig/point_structure.h"
 #include "engine/calibration/rig/rig_bundle.h"
+#include "engine/calibration/rig/wide_delays.h"
 
 namespace helical {
 namespace {
@@ -27,6 +28,17 @@ constexpr int kDelayRounds = 12, kDelayIterations = 15;
 constexpr double kSettledPeriods = 1e-3;  // a delay that changes by less has settled
 // Interpolation averages neighbours, which makes pixels look better than they are.
 constexpr double kInterpolationFlatters = 1.2;
+constexpr double kFewNearMisses = 0.2;
+constexpr double kHardlyFitting = 0.25;  // however much lies beyond the gate
+constexpr double kFitting = 0.5;         // share of inliers, from which on a camera's stamps are not doubted
+constexpr double kChainShare = 0.6, kFirstShare = 0.6;  // of the time
+
+/// A part of a longer work as a whole of its own.
+ProgressCallback part(const ProgressCallback& progress, double from, double to) {
+  return [&progress, from, to](double done) {
+    if (progress) progress(from + (to - from) * std::min(1.0, done));
+  };
+}
 
 int fewestInliers(const SightingTable& table) {
   return table.kind == TargetKind::kBody ? 3 : 2;
@@ -57,13 +69,17 @@ double rejectedShare(const RigSolution& s) {
   return possible > 0 ? static_cast<double>(rejected) / static_cast<double>(possible) : 1.0;
 }
 
-void gate(RigSolution& s, double tolerance_px) {
-  const double tolerance = std::clamp(tolerance_px, kTightestGatePx, 3.0 * roughTolerance(s.cameras));
+void gateAt(RigSolution& s, double tolerance) {
   if (s.table.kind == TargetKind::kBody)
     gateSightings(s.state, s.cameras, s.table, tolerance, fewestInliers(s.table));
   else
     placePoints(s.state, s.cameras, s.table, tolerance);
   for (Sighting& k : s.table.sightings) k.inlier = k.inlier && !k.adrift;
+}
+
+void gate(RigSolution& s, double tolerance_px) {
+  s.gate_px = std::clamp(tolerance_px, kTightestGatePx, 3.0 * roughTolerance(s.cameras));
+  gateAt(s, s.gate_px);
 }
 
 }  // namespace
@@ -116,8 +132,9 @@ double unlikeliness(const RigSolution& s) {
 
 /// Delays and poses in turn, until the delays have settled. `knowing_noise`: once residuals are noise, what a
 /// delay gains by averaging it is known, and taken back.
-void settleDelays(RigSolution& s, bool knowing_noise) {
+void settleDelays(RigSolution& s, bool knowing_noise, const ProgressCallback& progress) {
   for (int round = 0; round < kDelayRounds; ++round) {
+    progress(static_cast<double>(round) / kDelayRounds);
     const double sigma = sightingSigma(s.state, s.cameras, s.table);
     gate(s, kWideGateSigmas * sigma);
     std::vector<double> later_s(s.cameras.size(), 0.0);
@@ -137,13 +154,13 @@ void settleDelays(RigSolution& s, bool knowing_noise) {
 }
 
 /// Finds how much later than the first each camera saw, and keeps it if it explains the recording better.
-void findDelays(RigSolution& s) {
+void findDelays(RigSolution& s, const ProgressCallback& progress) {
   if (s.table.kind == TargetKind::kStillMarkers || s.state.solvedCameras() < 2) return;
   if (!(s.table.period_s > 0.0)) return;  // one instant
   RigSolution timed = s;
   timed.table.late_s.assign(s.cameras.size(), 0.0);
-  settleDelays(timed, false);
-  settleDelays(timed, true);
+  settleDelays(timed, false, part(progress, 0.0, 0.5));
+  settleDelays(timed, true, part(progress, 0.5, 1.0));
   giveUpAdrift(timed.table);
   refine(timed);
   const auto [without, with] = commonResiduals(s, timed);
@@ -154,25 +171,27 @@ void findDelays(RigSolution& s) {
 
 RigSolution solveFreely(SightingTable table, std::span<const RigCamera> cameras,
                         const RigCalibrationOptions& options, const ProgressCallback& progress) {
+  const auto chain_progress = part(progress, 0.0, kChainShare);
   RigSolution s;
   s.cameras.assign(cameras.begin(), cameras.end());
   s.table = std::move(table);
   const double tolerance = roughTolerance(cameras);
-  s.state = s.table.kind == TargetKind::kBody ? chainBodies(cameras, s.table, tolerance, progress)
-                                              : chainPoints(cameras, s.table, tolerance, progress);
+  s.state = s.table.kind == TargetKind::kBody ? chainBodies(cameras, s.table, tolerance, chain_progress)
+                                              : chainPoints(cameras, s.table, tolerance, chain_progress);
   refine(s);
-  if (!options.trust_stamps) findDelays(s);
+  if (!options.trust_stamps) findDelays(s, part(progress, kChainShare, 1.0));
   return s;
 }
 
-}  // namespace
-
-RigSolution solveLikeliest(std::vector<SightingTable> tables, std::span<const RigCamera> cameras,
-                           const RigCalibrationOptions& options, const ProgressCallback& progress) {
+/// The likelier one of a recording's tables.
+RigSolution solveTables(std::vector<SightingTable> tables, std::span<const RigCamera> cameras,
+                        const RigCalibrationOptions& options, const ProgressCallback& progress) {
   std::optional<RigSolution> best;
-  double least = 0.0;
+  double least = 0.0, done = 0.0;
+  const double each = 1.0 / static_cast<double>(tables.size());
   for (SightingTable& table : tables) {
-    RigSolution s = solveFreely(std::move(table), cameras, options, progress);
+    RigSolution s = solveFreely(std::move(table), cameras, options, part(progress, done, done + each));
+    done += each;
     const double flatters = s.table.timing == Timing::kInterpolated ? kInterpolationFlatters : 1.0;
     const double score = s.state.solvedCameras() < 2 ? 1e300 : flatters * unlikeliness(s);
     if (best && score >= least) continue;
@@ -180,6 +199,72 @@ RigSolution solveLikeliest(std::vector<SightingTable> tables, std::span<const Ri
     best = std::move(s);
   }
   return std::move(*best);
+}
+
+/// Cameras that could not be placed, or whose stamps may be why much of what they saw does not fit: where
+/// next to nothing lies just beyond the gate, it is false centroids.
+std::vector<bool> misfits(const RigSolution& s) {
+  std::vector<double> all(s.cameras.size(), 0.0), inliers = all;
+  for (const Sighting& k : s.table.sightings) {
+    all[static_cast<std::size_t>(k.camera)] += 1.0;
+    inliers[static_cast<std::size_t>(k.camera)] += k.inlier ? 1.0 : 0.0;
+  }
+  const std::vector<double> near = nearMisses(s);
+  std::vector<bool> misfit(s.cameras.size());
+  for (std::size_t c = 0; c < misfit.size(); ++c)
+    misfit[c] = !s.state.camera_from_world[c] || beyondDelayReach(s.table, c) ||
+                (inliers[c] < kFitting * all[c] && near[c] > kFewNearMisses) ||
+                inliers[c] < kHardlyFitting * all[c];
+  return misfit;
+}
+
+long inliersOf(const RigSolution& s) {
+  return std::count_if(s.table.sightings.begin(), s.table.sightings.end(),
+                       [](const Sighting& k) { return k.inlier; });
+}
+
+/// Where stamps that are more than a frame off may be why cameras do not fit: without that, if more fits
+/// then.
+void mendStamps(RigSolution& s, PointRows rows, const std::string& file, const RigCalibrationOptions& options,
+                const ProgressCallback& progress) {
+  const std::vector<bool> misfit = misfits(s);
+  if (s.table.kind == TargetKind::kStillMarkers || std::count(misfit.begin(), misfit.end(), true) == 0)
+    return;
+  const std::vector<double> late_s =
+      wideDelays(rows, s.cameras, misfit, s.table.period_s, roughTolerance(s.cameras));
+  if (std::all_of(late_s.begin(), late_s.end(), [](double late) { return late == 0.0; })) return;
+  for (PointRow& row : rows.rows) row.time_s += late_s[static_cast<std::size_t>(row.camera)];
+  const std::vector<RigCamera> cameras = s.cameras;
+  RigSolution mended = solveTables(bringTogether(rows, cameras, file), cameras, options, progress);
+  const std::vector<bool> still = misfits(mended);
+  if (std::count(still.begin(), still.end(), true) >= std::count(misfit.begin(), misfit.end(), true) ||
+      inliersOf(mended) * s.table.thinned_by < inliersOf(s) * mended.table.thinned_by)
+    return;
+  s = std::move(mended);
+  s.stamps_late_s = late_s;
+}
+
+}  // namespace
+
+std::vector<double> nearMisses(const RigSolution& s) {
+  RigSolution wider = s;
+  gateAt(wider, 2.0 * s.gate_px);
+  std::vector<double> more(s.cameras.size(), 0.0), inliers = more;
+  for (std::size_t i = 0; i < s.table.sightings.size(); ++i) {
+    const auto c = static_cast<std::size_t>(s.table.sightings[i].camera);
+    inliers[c] += s.table.sightings[i].inlier ? 1.0 : 0.0;
+    more[c] += wider.table.sightings[i].inlier && !s.table.sightings[i].inlier ? 1.0 : 0.0;
+  }
+  for (std::size_t c = 0; c < more.size(); ++c) more[c] /= std::max(1.0, inliers[c]);
+  return more;
+}
+
+RigSolution solveLikeliest(PointRows rows, std::span<const RigCamera> cameras, const std::string& file,
+                           const RigCalibrationOptions& options, const ProgressCallback& progress) {
+  RigSolution s =
+      solveTables(bringTogether(rows, cameras, file), cameras, options, part(progress, 0.0, kFirstShare));
+  if (!options.trust_stamps) mendStamps(s, std::move(rows), file, options, part(progress, kFirstShare, 1.0));
+  return s;
 }
 
 }  // namespace helical

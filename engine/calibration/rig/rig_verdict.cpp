@@ -12,6 +12,8 @@ constexpr double kGoodRms = 0.0025, kUsableRms = 0.008;
 // Standard deviation of a camera's place over its distance to what it saw.
 constexpr double kGoodPlace = 0.005, kUsablePlace = 0.03;
 constexpr double kGoodRejected = 0.15, kUsableRejected = 0.5;
+// Where hardly anything lies just beyond the gate, what was rejected is something else than the target.
+constexpr double kUsableSomethingElse = 0.75, kFewNearMisses = 0.2;
 constexpr long kGoodObservations = 60, kUsableObservations = 20;
 constexpr int kGoodParts = 4;       // of 16
 constexpr double kFarSigmas = 4.0;  // of a prior
@@ -80,11 +82,20 @@ void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camer
   const long inliers = c.observations - c.rejected;
   judge.limit(static_cast<double>(-inliers), -kGoodObservations, -kUsableObservations,
               who + " has " + std::to_string(inliers) + " good observations only: record more");
-  judge.limit(
-      static_cast<double>(c.rejected) / static_cast<double>(c.observations), kGoodRejected, kUsableRejected,
-      std::to_string(c.rejected) + " of " + std::to_string(c.observations) + " observations of " + who +
-          " were rejected: something else than the target was seen, its intrinsics are wrong, or its time "
-          "stamps are more than a frame off");
+  if (c.moved)
+    judge.reasonFor(
+        c.moved->fits_before ? RigVerdict::kBad : RigVerdict::kUsable,
+        who + " fits the others only " + (c.moved->fits_before ? "before " : "from ") +
+            number(c.moved->at_s, 1) + " s" + (c.moved->fits_before ? "" : " on") +
+            ": it was moved then, or its rows are another camera's; calibrate by what was recorded " +
+            (c.moved->fits_before ? "after that" : "since"));
+  else
+    judge.limit(
+        static_cast<double>(c.rejected) / static_cast<double>(c.observations), kGoodRejected,
+        c.near_misses < kFewNearMisses ? kUsableSomethingElse : kUsableRejected,
+        std::to_string(c.rejected) + " of " + std::to_string(c.observations) + " observations of " + who +
+            " were rejected: something else than the target was seen, its intrinsics are wrong, or its time "
+            "stamps are more than a frame off");
   judge.limit(c.reprojection_rms_px / camera.model.width(), kGoodRms, kUsableRms,
               who + " misses by " + number(c.reprojection_rms_px, 2) +
                   " px rms: see to its intrinsics, its focus, and that clocks and columns are right");
@@ -114,6 +125,11 @@ void judge(RigCalibration& calibration, std::span<const RigCamera> cameras) {
   Judge judge(calibration);
   for (std::size_t i = 0; i < cameras.size(); ++i)
     judgeCamera(judge, calibration.cameras[i], cameras[i], calibration.metric);
+  if (calibration.along_a_line)
+    judge.reasonFor(
+        RigVerdict::kBad,
+        "the target moved along a line, which many camera poses explain: move it through the whole "
+        "space");
   judgeSelf(judge, calibration);
   const std::string off = "the given poses disagree with the recording by " +
                           number(calibration.given_off_deg, 2) + " degrees and " +

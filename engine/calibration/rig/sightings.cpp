@@ -10,6 +10,7 @@ namespace helical {
 namespace {
 
 constexpr double kSynchronised = 0.3;      // share of equal time stamps from which on they are believed
+constexpr double kOnItsOwn = 0.02;         // a camera with fewer of them has a rhythm of its own
 constexpr double kSameInstant = 2e-6;      // s
 constexpr double kStillPx = 2.0;           // a marker that stays within it stands still
 constexpr std::size_t kMostPoints = 4000;  // more do not make it better, only slower
@@ -221,7 +222,7 @@ const char* nameOf(TargetKind kind) {
   return "";
 }
 
-std::vector<SightingTable> bringTogether(PointRows rows, std::span<const RigCamera> cameras,
+std::vector<SightingTable> bringTogether(PointRows& rows, std::span<const RigCamera> cameras,
                                          const std::string& file) {
   sortByTime(rows);
   const Rhythm rhythm = rhythmOf(rows, static_cast<int>(cameras.size()));
@@ -237,7 +238,8 @@ std::vector<SightingTable> bringTogether(PointRows rows, std::span<const RigCame
   if (kind == TargetKind::kStillMarkers) {
     tables.push_back(make(Timing::kTogether, stillInstants(rows)));
   } else {
-    const bool synchronised = rhythm.shared_stamps >= kSynchronised;
+    const bool synchronised =
+        rhythm.shared_stamps >= kSynchronised && rhythm.fewest_shared_stamps >= kOnItsOwn;
     if (!synchronised)
       tables.push_back(make(Timing::kInterpolated, interpolateInTime(rows, rhythm.period_s)));
     auto together = clusterInTime(rows, synchronised ? kSameInstant : 0.5 * rhythm.period_s);

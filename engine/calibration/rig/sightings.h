@@ -58,8 +58,9 @@ struct SightingTable {
 };
 
 /// Tables of one recording, the more likely one first: with equal time stamps in most rows there is one, else
-/// one of each timing. Throws Error(kInput) when no two cameras have rows of the same time.
-std::vector<SightingTable> bringTogether(PointRows rows, std::span<const RigCamera> cameras,
+/// one of each timing. Sorts `rows` by time and thins very long recordings. Throws Error(kInput) when no two
+/// cameras have rows of the same time.
+std::vector<SightingTable> bringTogether(PointRows& rows, std::span<const RigCamera> cameras,
                                          const std::string& file);
 
 }  // namespace helical

@@ -2,16 +2,13 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <optional>
-#include <span>
 
-#include "engine/markers/ball_outline.h"
+#include "engine/markers/ball_window.h"
 #include "engine/markers/cell_grid.h"
-#include "engine/markers/cut_disc.h"
-#include "engine/markers/disc_kernels.h"
 #include "engine/markers/overlap_split.h"
 #include "engine/markers/region_labeller.h"
+#include "engine/markers/shaded_disc.h"
 #include "engine/markers/smear.h"
 #include "engine/markers/smear_fit.h"
 
@@ -41,7 +38,8 @@ struct Disc {
 /// only. One thread.
 class DiscFit {
  public:
-  DiscFit();
+  DiscFit() = default;
+  DiscFit(const DiscFit&) = delete;
 
   /// Nothing if the region is too large for the workspace, or nothing that looks like a ball; or if it is
   /// longish and alike on both sides, but no ball that moved evenly: its centre of gravity is the better
@@ -54,71 +52,31 @@ class DiscFit {
   std::optional<std::array<Disc, 2>> fitTwo(const CellGrid& grid, const Region& region);
 
  private:
-  static constexpr int kLargestSide = 88;
-  using Parameters = std::array<float, kDiscParameters>;
-  struct System;
-
-  bool readWindow(const CellGrid& grid, const Region& region);
-  Eigen::Vector3d colourAxis(const CellGrid& grid, const Region& region) const;
-  double valueAt(double x, double y) const;
-  void start(const OutlineCircle& circle);
-  Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
-  ValueWindow window(const Region& region);
-  Smear smearOfRegion();
-  float givenAt(double x, double y) const;
   std::optional<Disc> fitWindow(const CellGrid& grid);
   std::optional<Disc> fitColour(const CellGrid& grid);
-  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear, const Parameters* at_rest,
-                                       double most_excess);
-  bool isOneMoving(const CellGrid& grid);
-  std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear);
-  std::optional<Disc> fitCut(double& excess);
-  bool mayHaveMoved(const Smear& smear);
-  double motionInResiduals();
   std::optional<Disc> withBrightness(const Disc& by_colour);
-  bool startBrightness();
-  void levelBrightness();
-  void leaveOutUneven(float limit);
-  Parameters brightnessParameters() const;
-  System linearise();
-  bool descend(int steps);
-  float residualScale(const DiscCells& cells);
-  bool fitsEverywhere();
-  float noiseAround();
-  void leaveOutHidden();
-  void leaveOutMarked(DiscCells& cells);
+  Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
+  std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear);
+  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear,
+                                       const ShadedDisc::Parameters* at_rest, double most_excess);
+  std::optional<Disc> fitCut(double& excess);
+  Smear smearOfRegion();
+  bool mayHaveMoved(const Smear& smear);
+  bool isOneMoving(const CellGrid& grid);
   std::optional<Disc> result();
   /// The disc at the current parameters, with the cells of it that are seen; nothing if it is doubtful or its
   /// covariance is none.
   std::optional<Disc> believed(const Eigen::Matrix2d& covariance, double seen) const;
-  int traceOutline(std::span<OutlinePoint> outline) const;
   bool isPlausible() const;
   bool isDoubtful(const Disc& disc) const;
   bool isDoubtful(const SmearedBall& ball, const SmearStart& start, const Smear& smear) const;
-  std::size_t placeOf(std::size_t cell) const;
+  double squaredFromRegion() const;
 
-  int left_ = 0;
-  int top_ = 0;
-  int width_ = 0;
-  int height_ = 0;
-  Eigen::Matrix2d smear_ = Eigen::Matrix2d::Zero();
-  Region region_;
-  OutlineCircle binary_{};  ///< of the region; like the parameters from the window's corner on
-  std::optional<OutlineCircle> neighbour_;
-  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();  ///< of the colours, along which values are taken
-  bool has_colour_ = false;
-  Parameters p_{};
-  float brightness_over_colour_ = 0.0F;  ///< of the ball's light
-  float brightness_around_ = 0.0F;
-  double brightness_weight_ = 0.0;  ///< of a cell's brightness, over that of its colour; 0: not fitted
-  std::size_t real_count_ = 0;      ///< of the cells, without what only fills up
-  std::array<float, kLargestSide * kLargestSide> values_;
-  std::array<float, kDiscCells> sorted_;
-  std::array<std::uint8_t, kLargestSide * kLargestSide> is_marked_;  ///< does not fit
-  std::unique_ptr<DiscCells> colour_;
-  std::unique_ptr<DiscCells> brightness_;
-  OverlapSplit split_;
+  BallWindow window_;
+  ShadedDisc disc_{window_};
   SmearFit smear_fit_;
+  OverlapSplit split_;
+  Eigen::Matrix2d smear_ = Eigen::Matrix2d::Zero();
 };
 
 }  // namespace helical

@@ -7,6 +7,9 @@
 namespace helical {
 
 inline constexpr float kSmallestDisc = 0.7F;  ///< cells: below that radius there is no disc
+inline constexpr float kLeastScale = 0.7F;    ///< levels: quantisation and what the models leave out
+/// Squared levels: no fit is believed to scatter by less than half of that.
+inline constexpr double kLeastVariance = 0.25 * kLeastScale * kLeastScale;
 
 /// Normal matrix of the first `kSize` parameters; sumDisc and sumCutDisc fill the lower triangle.
 template <int kSize>

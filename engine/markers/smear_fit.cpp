@@ -13,7 +13,6 @@ namespace {
 constexpr double kReach = 3.0;      ///< cells around the way that are fitted, too
 constexpr double kPaleEnds = 0.75;  ///< of the half way: as far its ends are too pale to be found
 constexpr double kLeastHalf = 0.4;  ///< cells: with no way at all, no direction is better than another
-constexpr double kLeastVariance = 0.125, kLeastNoise = 0.7;  ///< as of discs at rest
 constexpr int kFirstSteps = 5, kSteps = 10;
 /// After the first steps, what the excess may still fall by: to a share of it, and by so much a cell.
 constexpr double kStillToFall = 2.0, kAtFirst = 1.0;
@@ -84,10 +83,10 @@ double SmearFit::noiseAround() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < real_count_; ++i)
     if (cells_->cover[i] == 0.0F) sorted_[count++] = std::abs(cells_->residual[i]);
-  if (count == 0) return kLeastNoise;
+  if (count == 0) return double{kLeastScale};
   const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(kLeastNoise, 1.4826 * static_cast<double>(*middle));
+  return std::max(double{kLeastScale}, 1.4826 * static_cast<double>(*middle));
 }
 
 double SmearFit::squaresAtRest(const std::array<float, kDiscParameters>& disc) {

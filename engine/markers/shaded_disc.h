@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "engine/markers/ball_outline.h"
+#include "engine/markers/ball_window.h"
+#include "engine/markers/disc_kernels.h"
+
+namespace helical {
+
+/// The whole disc of DiscFit's model at rest, fitted to a window's cells: Gauss and Newton over the centre,
+/// the radius, the light and the level around it; to the colour, and where the surroundings are even to the
+/// brightness as well, with the same light and a level of its own, each cell of both by the scatter around
+/// the fit. Cells from the window's corner on. Repeats bit for bit. No allocation.
+class ShadedDisc {
+ public:
+  using Parameters = std::array<float, kDiscParameters>;
+
+  struct Quality {
+    Eigen::Matrix2d covariance =
+        Eigen::Matrix2d::Identity();  ///< of the centre, by the scatter of the residuals
+    double variance = 0.0;            ///< of the residuals
+  };
+
+  explicit ShadedDisc(BallWindow& window) : window_(window) {}
+
+  const Parameters& parameters() const { return p_; }
+  double radius() const { return p_[kDiscRadius]; }
+  Eigen::Vector2d centre() const { return {p_[kDiscX], p_[kDiscY]}; }
+  /// Of the ball where it faces the camera, over what is around it.
+  double contrast() const;
+  /// Halfway between the ball's ambient light and what is around it.
+  double level() const { return 0.5 * (p_[kDiscAmbient] + p_[kDiscAround]); }
+
+  /// A flat disc there, of the colour alone.
+  void start(const OutlineCircle& circle);
+  void start(const Parameters& parameters) { p_ = parameters; }
+  /// Takes the brightness in, of cells where it is even; false if too few of the outline are.
+  bool startBrightness();
+  /// To the least squares near to where it stands; false if there are none.
+  bool descend(int steps);
+  /// Marks and leaves out what does not fit because something is before the disc, and gives all other cells.
+  void leaveOutHidden();
+
+  Quality quality();
+  /// Whether the residuals are noise.
+  bool fitsEverywhere();
+  /// After that, chi-square of two degrees of freedom: what a motion of the ball left on both sides of its
+  /// outline.
+  double motionInResiduals();
+  /// Of the disc, not marked and not the neighbour's.
+  double seenCells() const;
+
+ private:
+  struct System;
+
+  System linearise();
+  void levelBrightness();
+  void leaveOutUneven(float limit);
+  Parameters brightnessParameters() const;
+
+  BallWindow& window_;
+  Parameters p_{};
+  float brightness_over_colour_ = 0.0F;  ///< of the ball's light
+  float brightness_around_ = 0.0F;
+  double brightness_weight_ = 0.0;  ///< of a cell's brightness, over that of its colour; 0: not fitted
+};
+
+}  // namespace helical

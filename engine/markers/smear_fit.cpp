@@ -13,9 +13,10 @@ namespace {
 constexpr double kReach = 3.0;      ///< cells around the way that are fitted, too
 constexpr double kPaleEnds = 0.75;  ///< of the half way: as far its ends are too pale to be found
 constexpr double kLeastHalf = 0.4;  ///< cells: with no way at all, no direction is better than another
-constexpr int kFirstSteps = 5, kSteps = 10;
-/// After the first steps, what the excess may still fall by: to a share of it, and by so much a cell.
-constexpr double kStillToFall = 2.0, kAtFirst = 1.0;
+constexpr int kFirstSteps = 4, kSteps = 10;
+/// After the first steps: chi-square that a motion must have gained by then over a ball at rest, and what the
+/// excess may still have to fall by, a cell.
+constexpr double kSoonGained = 3.0, kStillToFall = 0.3;
 constexpr double kShort = 0.25;                                ///< radii of a half way
 constexpr double kMostHalf = 5.0;                              ///< radii
 constexpr double kSmaller = 0.5, kLarger = 1.6, kApart = 1.0;  ///< radii at the start, and cells
@@ -119,8 +120,8 @@ std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vect
   smeared.descend(cells, kFirstSteps);
   smeared.measure(cells);
   const double variance = std::pow(noiseAround(), 2);
-  if (smeared.squares > squares_at_rest ||
-      smeared.squares / variance - smeared.count > kStillToFall * most_excess + kAtFirst * smeared.count)
+  if (smeared.squares + kSoonGained * variance > squares_at_rest ||
+      smeared.squares / variance - smeared.count > most_excess + kStillToFall * smeared.count)
     return std::nullopt;
   smeared.descend(cells, kSteps);
   return ballOf(smeared, start, squares_at_rest);

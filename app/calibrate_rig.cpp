@@ -54,6 +54,10 @@ std::vector<RigCamera> camerasOf(const RigConfig& rig) {
   return cameras;
 }
 
+nlohmann::json jsonOf(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
 nlohmann::json toJson(const RigCalibration& calibration) {
   nlohmann::json cameras = nlohmann::json::array();
   for (const CalibratedCamera& c : calibration.cameras) {
@@ -71,13 +75,13 @@ nlohmann::json toJson(const RigCalibration& calibration) {
          {"orientation_sigma_deg", known ? nlohmann::json(c.orientation_sigma_deg) : nlohmann::json()},
          {"distance_m", c.camera_from_world ? nlohmann::json(c.distance_m) : nlohmann::json()},
          {"focal_scale", c.focal_scale},
-         {"focal_sigma", c.focal_sigma}});
+         {"focal_sigma", jsonOf(c.focal_sigma)}});
   }
   nlohmann::json points = nlohmann::json::array();
   for (const CalibratedPoint& p : calibration.points)
     points.push_back({{"given_m", {p.given.x(), p.given.y(), p.given.z()}},
                       {"found_m", {p.found.x(), p.found.y(), p.found.z()}},
-                      {"sigma_m", p.sigma_m}});
+                      {"sigma_m", jsonOf(p.sigma_m)}});
   return {{"verdict", nameOf(calibration.verdict)},
           {"reasons", calibration.reasons},
           {"scale", calibration.metric ? "metric" : "arbitrary"},
@@ -93,21 +97,29 @@ nlohmann::json toJson(const RigCalibration& calibration) {
           {"cameras", std::move(cameras)}};
 }
 
+std::string sigmaText(std::optional<double> sigma, double factor, const char* unit) {
+  if (!sigma) return "sigma not known";
+  char text[48];
+  std::snprintf(text, sizeof text, "sigma %.3f %s", factor * *sigma, unit);
+  return text;
+}
+
 void printCorrections(const RigCalibration& calibration) {
   if (calibration.self.focal_sigma > 0.0)
     for (const CalibratedCamera& c : calibration.cameras)
-      std::printf("focal length of camera %s: %+.3f %% (sigma %.3f %%)\n", c.label.c_str(),
-                  100.0 * (c.focal_scale - 1.0), 100.0 * c.focal_sigma);
-  double squares = 0.0, farthest = 0.0, sigma = 0.0;
+      std::printf("focal length of camera %s: %+.3f %% (%s)\n", c.label.c_str(),
+                  100.0 * (c.focal_scale - 1.0), sigmaText(c.focal_sigma, 100.0, "%").c_str());
+  double squares = 0.0, farthest = 0.0;
+  std::optional<double> sigma = 0.0;
   for (const CalibratedPoint& p : calibration.points) {
     squares += (p.found - p.given).squaredNorm();
     farthest = std::max(farthest, (p.found - p.given).norm());
-    sigma = std::max(sigma, p.sigma_m);
+    sigma = sigma && p.sigma_m ? std::optional(std::max(*sigma, *p.sigma_m)) : std::nullopt;
   }
   const auto count = static_cast<double>(calibration.points.size());
   if (!calibration.points.empty())
-    std::printf("points of the body: moved by %.3f mm rms, %.3f mm at most (largest sigma %.3f mm)\n",
-                1e3 * std::sqrt(squares / count), 1e3 * farthest, 1e3 * sigma);
+    std::printf("points of the body: moved by %.3f mm rms, %.3f mm at most (largest %s)\n",
+                1e3 * std::sqrt(squares / count), 1e3 * farthest, sigmaText(sigma, 1e3, "mm").c_str());
 }
 
 /// What was found, as far as it is the rig's: a board's points are not.
@@ -162,16 +174,32 @@ void printReport(const RigCalibration& calibration) {
   for (const std::string& reason : calibration.reasons) std::printf("  %s\n", reason.c_str());
 }
 
+std::string decimals(double value, int digits) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
 std::string provenance(const RigArguments& arguments, const RigCalibration& calibration) {
-  char sigma[32];
-  std::snprintf(sigma, sizeof sigma, "%.3f", calibration.sigma_px);
   std::string text = "Solved by helical calibrate rig from " +
                      std::filesystem::path(arguments.observations).filename().string() + " and " +
                      std::filesystem::path(arguments.rig).filename().string() +
                      ".\nVerdict: " + nameOf(calibration.verdict) +
                      ". Scale: " + (calibration.metric ? "metric" : "ARBITRARY") + ", from " +
                      calibration.scale_from + ".\nWorld: " + calibration.world +
-                     ". A pixel's standard deviation: " + sigma + " px per axis.";
+                     ". A pixel's standard deviation: " + decimals(calibration.sigma_px, 3) + " px per axis.";
+  if (calibration.delays) {
+    text += "\nTaken off, how much later than its stamps each camera saw [s]:";
+    for (const CalibratedCamera& c : calibration.cameras) text += " " + c.label + " " + decimals(c.late_s, 4);
+    text += ".";
+  }
+  if (calibration.self.focal_sigma > 0.0) {
+    text += "\nFocal lengths were found, over those of that rig:";
+    for (const CalibratedCamera& c : calibration.cameras)
+      text += " " + c.label + " " + decimals(c.focal_scale, 5);
+    text += ".";
+  }
+  if (!calibration.points.empty()) text += "\nThe body's points were found, too.";
   for (const std::string& reason : calibration.reasons) text += "\n" + reason;
   return text;
 }
@@ -251,8 +279,10 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
       "Verdict: good, usable or bad, and why. A bad calibration is not written (exit code 1).\n"
       "The scale comes from body coordinates, from two given poses, or from --scale; otherwise it is "
       "arbitrary.\n"
-      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say, and stamps may be\n"
-      "up to a second off: how much later than the first each of them saw is found from how the target moves,\n"
+      "Cameras that nothing triggers expose up to a frame apart, whatever their stamps say, and stamps may "
+      "be\n"
+      "up to a second off: how much later than the first each of them saw is found from how the target "
+      "moves,\n"
       "told, and taken into account.\n"
       "Focal lengths that were found go into the rig file, and points that are its balls.");
   command->callback([arguments, &exit_code] { exit_code = calibrate(*arguments); });

@@ -8,6 +8,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+#include "engine/calibration/rig/point_structure.h"
+#include "engine/calibration/rig/rig_covariance.h"
 #include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
 #include "tests/calibration/rig_recording.h"
@@ -99,8 +101,8 @@ TEST(RigCalibration, PointsOfTheBodyThatAreOffAreFound) {
     }
   // How large the whole is, nothing but the user's own coordinates tells.
   EXPECT_LT(after, 0.2 * before);
-  EXPECT_LT(refined.points[0].sigma_m, 1e-3);
-  EXPECT_GT(refined.points[0].sigma_m, 0.0);
+  EXPECT_LT(refined.points[0].sigma_m.value(), 1e-3);
+  EXPECT_GT(refined.points[0].sigma_m.value(), 0.0);
   const double error = poseErrors(board.made.cameras, posesOf(refined), false).metres;
   EXPECT_LT(error, poseErrors(board.made.cameras, posesOf(plain), false).metres);
   EXPECT_GT(refined.cameras[1].position_sigma_m, plain.cameras[1].position_sigma_m)
@@ -119,8 +121,8 @@ TEST(RigCalibration, FocalLengthsThatAreOffAreFound) {
   double squares = 0.0;
   for (std::size_t c = 0; c < board.cameras.size(); ++c) {
     const double off = refined.cameras[c].focal_scale - (1.0 + board.focal_errors[c]);
-    EXPECT_LT(std::abs(off), 4.0 * refined.cameras[c].focal_sigma);
-    EXPECT_LT(refined.cameras[c].focal_sigma, 0.003);
+    EXPECT_LT(std::abs(off), 4.0 * refined.cameras[c].focal_sigma.value());
+    EXPECT_LT(refined.cameras[c].focal_sigma.value(), 0.003);
     squares += off * off;
   }
   EXPECT_LT(std::sqrt(squares / 4.0), 0.002);
@@ -151,7 +153,8 @@ TEST(RigCalibration, WhereNothingIsOffRefiningSpoilsLittle) {
                        refined = solve(board.cameras, board.rows, options);
   EXPECT_EQ(refined.verdict, plain.verdict) << reasonsOf(refined);
   EXPECT_LT(poseErrors(board.made.cameras, posesOf(refined), false).metres, 0.01);
-  for (const CalibratedCamera& c : refined.cameras) EXPECT_NEAR(c.focal_scale, 1.0, 4.0 * c.focal_sigma);
+  for (const CalibratedCamera& c : refined.cameras)
+    EXPECT_NEAR(c.focal_scale, 1.0, 4.0 * c.focal_sigma.value());
 }
 
 TEST(RigCalibration, WhatIsFartherOffThanItMayBeIsSaid) {
@@ -479,6 +482,107 @@ TEST(RigCalibration, CovarianceKnowsOfTheDelays) {
   EXPECT_NEAR(nees / kRuns, 6.0, 3.3);
 }
 
+/// That of the second given camera is not known exactly either, and moves the light's places: all the same
+/// only if that camera sees nothing move.
+TEST(RigCalibration, CovarianceKnowsOfTheDelayOfASecondGivenCamera) {
+  RecordingOptions recording;
+  recording.cameras = 3;
+  MadeRecording made = wavedLight(recording, 25);
+  SightingTable table = bringTogether(made.rows, made.cameras, "made up").front();
+  table.late_s.assign(3, 0.0);
+  RigState state;
+  for (const RigCamera& camera : made.cameras) state.camera_from_world.push_back(camera.camera_from_world);
+  state.points.resize(static_cast<std::size_t>(table.items));
+  state.world_from_body.resize(state.points.size());
+  state.fixed = {true, true, false};
+  placePoints(state, made.cameras, table, 5.0);
+  const auto place_variance = [&] {
+    return rigCovariance(state, made.cameras, table, std::nullopt)
+        .cameras[2]
+        ->bottomRightCorner<3, 3>()
+        .trace();
+  };
+  const double open = place_variance();
+  for (Sighting& s : table.sightings)
+    if (s.camera == 1) s.motion.velocity.setZero();
+  EXPECT_GT(open, 1.002 * place_variance());
+}
+
+/// Three poses of a board with all of its points open: what those take up of the residuals counts.
+TEST(RigCalibration, APixelsSigmaCountsTheFreePoints) {
+  double sum = 0.0;
+  constexpr int kRuns = 8;
+  for (int run = 0; run < kRuns; ++run) {
+    RecordingOptions recording;
+    recording.duration_s = 0.105;
+    recording.dropout = 0.0;
+    const MadeRecording made = wavedBoard(recording, 500 + static_cast<std::uint64_t>(run));
+    RigCalibrationOptions options;
+    options.self.marker_sigma_m = 0.02;
+    options.trust_stamps = true;
+    const RigCalibration solved = solve(made.unposed(), made.rows, options);
+    ASSERT_EQ(solved.points.size(), 24u);
+    sum += solved.sigma_px;
+  }
+  EXPECT_NEAR(sum / kRuns, 0.5, 0.015);
+}
+
+/// Four points at one instant cannot tell of themselves, too.
+TEST(RigCalibration, SigmasThatAreNotKnownAreNotZero) {
+  RecordingOptions recording;
+  recording.cameras = 2;
+  recording.duration_s = 1.5 / recording.rate_hz;
+  recording.dropout = 0.0;
+  MadeRecording made = wavedBoard(recording, 45);
+  PointRows few;
+  few.markers = made.rows.markers;
+  for (std::size_t i = 0; i < made.rows.rows.size(); ++i) {
+    const Eigen::Vector3d& at = made.rows.in_body[i];
+    const auto edge = [](double x, double far) { return x < 1e-9 || x > far - 1e-9; };
+    if (!edge(at.x(), 0.3) || !edge(at.y(), 0.18)) continue;
+    few.rows.push_back(made.rows.rows[i]);
+    few.in_body.push_back(at);
+  }
+  RigCalibrationOptions options;
+  options.self = {0.02, 0.1};
+  const RigCalibration solved = solve(made.unposed(), few, options);
+  EXPECT_EQ(solved.verdict, RigVerdict::kBad);
+  ASSERT_EQ(solved.points.size(), 4u);
+  EXPECT_FALSE(solved.points[0].sigma_m.has_value());
+  EXPECT_FALSE(solved.cameras[1].focal_sigma.has_value());
+}
+
+/// Wrong focal lengths hide in poses and in the light's places; right ones are not doubted.
+TEST(RigCalibration, WrongIntrinsicsOfALightsCamerasAreSaid) {
+  for (const bool wrong : {true, false})
+    for (const std::uint64_t seed : {81U, 82U, 83U}) {
+      RecordingOptions recording;
+      recording.duration_s = 20.0;
+      recording.outliers = 0.1;
+      const MadeRecording made = wavedLight(recording, seed);
+      std::vector<RigCamera> cameras = made.unposed();
+      if (wrong)
+        for (std::size_t c = 0; c < cameras.size(); ++c)
+          cameras[c].model = cameras[c].model.withFocalScale(c % 2 == 0 ? 1.02 : 0.98);
+      const RigCalibration solved = solve(cameras, made.rows);
+      EXPECT_EQ(solved.verdict == RigVerdict::kGood, !wrong) << reasonsOf(solved);
+      EXPECT_EQ(reasonsOf(solved).find("contradicts the given intrinsics") != std::string::npos, wrong);
+      EXPECT_NEAR(solved.cameras[0].focal_off, wrong ? 1.0 / 1.02 - 1.0 : 0.0, 0.006) << seed;
+    }
+}
+
+/// Rows of frames that are only near each other keep what their stamps say.
+TEST(RigCalibration, RowsPutTogetherRememberTheirStamps) {
+  RecordingOptions recording;
+  recording.cameras = 2;
+  MadeRecording made = wavedLight(recording, 46);
+  for (PointRow& row : made.rows.rows)
+    if (row.camera == 1) row.time_s += 0.005;
+  for (const SightingTable& table : bringTogether(made.rows, made.cameras, "made up"))
+    EXPECT_NEAR(table.stamps_after_s[1] - table.stamps_after_s[0],
+                table.timing == Timing::kTogether ? 0.005 : 0.0, 1e-9);
+}
+
 TEST(RigCalibration, CameraThatSharesNothingIsNamed) {
   MadeRecording made = wavedLight({}, 20);
   for (PointRow& row : made.rows.rows)
@@ -535,9 +639,10 @@ TEST(RigCalibration, ManyFalseCentroidsDoNotSpoilAPair) {
   const auto second_from_first = [](const RigidTransform& first, const RigidTransform& second) {
     return second.rotation * first.rotation.conjugate();
   };
-  const double off = toDegrees(
-      second_from_first(*solved.cameras[0].camera_from_world, *solved.cameras[1].camera_from_world)
-          .angularDistance(second_from_first(*made.cameras[0].camera_from_world, *made.cameras[1].camera_from_world)));
+  const double off =
+      toDegrees(second_from_first(*solved.cameras[0].camera_from_world, *solved.cameras[1].camera_from_world)
+                    .angularDistance(second_from_first(*made.cameras[0].camera_from_world,
+                                                       *made.cameras[1].camera_from_world)));
   EXPECT_LT(off, 0.7);
 }
 

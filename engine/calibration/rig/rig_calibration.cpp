@@ -55,7 +55,8 @@ CalibratedCamera reportCamera(const RigSolution& s, std::size_t index,
   c.image_parts = static_cast<int>(parts.size());
   if (c.camera_from_world) c.distance_m = medianDistance(s, index);
   if (!s.stamps_late_s.empty()) c.late_s = s.stamps_late_s[index];
-  if (!s.table.late_s.empty()) c.late_s += s.table.late_s[index];
+  // Against its own stamps, not those of the items that its rows were put to.
+  if (!s.table.late_s.empty()) c.late_s += s.table.late_s[index] - s.table.stamps_after_s[index];
   c.beyond_reach = beyondDelayReach(s.table, index);
   c.covariance = covariance;
   if (covariance) {
@@ -82,11 +83,12 @@ void reportBody(const FreeBody& body, const RigCovariance& covariance, RigCalibr
   const bool known = !covariance.focal_sigmas.empty();
   for (std::size_t c = 0; c < result.cameras.size(); ++c) {
     result.cameras[c].focal_scale = body.focal_scales[c];
-    if (known) result.cameras[c].focal_sigma = covariance.focal_sigmas[c];
+    result.cameras[c].focal_sigma = known ? std::optional(covariance.focal_sigmas[c]) : std::nullopt;
   }
   if (!(body.sigmas.marker_sigma_m > 0.0)) return;
   for (std::size_t i = 0; i < body.points.size(); ++i)
-    result.points.push_back({body.given[i], body.points[i], known ? covariance.point_sigmas_m[i] : 0.0});
+    result.points.push_back(
+        {body.given[i], body.points[i], known ? std::optional(covariance.point_sigmas_m[i]) : std::nullopt});
 }
 
 /// Without a measured scale: the first solved camera and the one farthest from it, whose distance is the
@@ -103,6 +105,26 @@ std::optional<KnownDistance> unitDistance(const RigState& state) {
     if (d > (found ? found->metres : 1e-12)) found = {*first, c, d};
   }
   return found;
+}
+
+/// What the covariance takes for exact of lengths that are not measured.
+std::optional<KnownDistance> heldDistance(const RigState& state, bool measured,
+                                          const std::optional<KnownDistance>& scale) {
+  if (measured) return std::nullopt;
+  const bool known = scale && state.camera_from_world[scale->a] && state.camera_from_world[scale->b];
+  return known ? scale : unitDistance(state);
+}
+
+void reportFocalDoubts(const RigSolution& s, const std::optional<KnownDistance>& scale_held,
+                       RigCalibration& result) {
+  const std::vector<FocalDoubt> doubts = doubtFocals(s.state, s.cameras, s.table, scale_held);
+  for (std::size_t c = 0; c < doubts.size(); ++c) {
+    CalibratedCamera& camera = result.cameras[c];
+    camera.focal_off = doubts[c].off;
+    camera.focal_off_sigma = doubts[c].sigma;
+    if (camera.distance_m > 0.0)
+      result.focal_share = std::max(result.focal_share, doubts[c].moves_by / camera.distance_m);
+  }
 }
 
 std::size_t givenCount(std::span<const RigCamera> cameras) {
@@ -160,15 +182,9 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
   result.unmatched = s.table.unmatched;
   result.delays = !s.table.late_s.empty() || !s.stamps_late_s.empty();
   result.along_a_line = sawOnlyALine(s);
-  const bool scale_is_measured = body || given > 1;
+  const auto scale_held = heldDistance(s.state, body || given > 1, options.scale);
   const RigCovariance covariance =
-      rigCovariance(s.state, s.cameras, s.table,
-                    scale_is_measured ? std::nullopt
-                    : options.scale && s.state.camera_from_world[options.scale->a] &&
-                            s.state.camera_from_world[options.scale->b]
-                        ? options.scale
-                        : unitDistance(s.state),
-                    s.body ? &*s.body : nullptr);
+      rigCovariance(s.state, s.cameras, s.table, scale_held, s.body ? &*s.body : nullptr);
   result.sigma_px = covariance.sigma_px;
   const std::vector<double> near_misses = nearMisses(s);
   double farthest = 0.0;
@@ -179,6 +195,8 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
     farthest = std::max(farthest, result.cameras.back().distance_m);
   }
   countDelaysFromFirst(result);
+  if (!(result.self.focal_sigma > 0.0) && !(options.self.focal_sigma > 0.0))
+    reportFocalDoubts(s, scale_held, result);
   if (s.body) reportBody(*s.body, covariance, result);
   result.given_off_deg = off.degrees;
   result.given_off_share = farthest > 0.0 ? off.metres / farthest : 0.0;

@@ -52,13 +52,16 @@ struct CalibratedCamera {
   double late_s = 0.0;        ///< it saw so much later than its time stamps say, against the first one
   bool beyond_reach = false;  ///< or even later: more than a frame cannot be told
   double focal_scale = 1.0;   ///< over the given focal lengths
-  double focal_sigma = 0.0;   ///< of that; 0: it is given
+  std::optional<double> focal_sigma =
+      0.0;  ///< of that; 0: it is given; nothing: the recording leaves it open
+  double focal_off = 0.0,
+         focal_off_sigma = 0.0;  ///< what the recording says of a given one, as a share; 0: nothing
 };
 
 /// A point of the target's body, where points are solved for.
 struct CalibratedPoint {
   Eigen::Vector3d given, found;
-  double sigma_m = 0.0;  ///< largest axis
+  std::optional<double> sigma_m;  ///< largest axis; nothing: the recording leaves it open
 };
 
 struct RigCalibration {
@@ -72,9 +75,10 @@ struct RigCalibration {
   int items = 0;  ///< points or body poses that took part
   int thinned_by = 1;
   long unmatched = 0;
-  double sigma_px = 0.0;         ///< of a pixel, per axis
-  bool along_a_line = false;     ///< no camera saw the target leave one
-  bool delays = false;           ///< cameras were not exposed together: their `late_s` is taken off
+  double sigma_px = 0.0;      ///< of a pixel, per axis
+  bool along_a_line = false;  ///< no camera saw the target leave one
+  bool delays = false;        ///< cameras were not exposed together: their `late_s` is taken off
+  double focal_share = 0.0;  ///< how far focal lengths that fit better would move a camera, over its distance
   double given_off_deg = 0.0;    ///< how far given poses and the recording disagree
   double given_off_share = 0.0;  ///< the same of places, over the distance to what was seen
   SelfCalibrationOptions self;   ///< what was solved for beside poses

@@ -2,6 +2,15 @@
 
 namespace helical {
 
+std::size_t timeKeeper(const RigState& state) {
+  std::size_t first = state.fixed.size();
+  for (std::size_t c = state.fixed.size(); c-- > 0;)
+    if (state.camera_from_world[c]) first = c;
+  for (std::size_t c = state.fixed.size(); c-- > 0;)
+    if (state.camera_from_world[c] && state.fixed[c]) first = c;
+  return first;
+}
+
 std::optional<Eigen::Vector3d> pointInWorld(const RigState& state, const SightingTable& table,
                                             const Sighting& s) {
   const auto item = static_cast<std::size_t>(s.item);

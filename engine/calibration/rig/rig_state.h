@@ -22,6 +22,9 @@ struct RigState {
   int solvedCameras() const;
 };
 
+/// The camera whose delay is zero: the first one whose pose is given, else the first one that has a pose.
+std::size_t timeKeeper(const RigState& state);
+
 inline int RigState::solvedCameras() const {
   int count = 0;
   for (const auto& camera : camera_from_world) count += camera.has_value() ? 1 : 0;

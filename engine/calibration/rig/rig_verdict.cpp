@@ -17,6 +17,7 @@ constexpr double kUsableSomethingElse = 0.75, kFewNearMisses = 0.2;
 constexpr long kGoodObservations = 60, kUsableObservations = 20;
 constexpr int kGoodParts = 4;       // of 16
 constexpr double kFarSigmas = 4.0;  // of a prior
+constexpr double kSurelyOff = 6.0;  // standard deviations of a focal length
 constexpr double kGoodGivenDeg = 0.5, kUsableGivenDeg = 2.0;
 constexpr double kGoodGivenShare = 0.01, kUsableGivenShare = 0.05;
 
@@ -63,6 +64,26 @@ void judgeSelf(Judge& judge, const RigCalibration& calibration) {
     judge.reasonFor(RigVerdict::kUsable,
                     "a point of the body came out " + number(1e3 * farthest, 1) +
                         " mm off, more than --refine-markers expects: see to the body coordinates");
+}
+
+/// Focal lengths that are wrong move cameras by much and residuals by little.
+void judgeFocals(Judge& judge, const RigCalibration& calibration) {
+  const CalibratedCamera* surest = nullptr;
+  double most = kSurelyOff;
+  for (const CalibratedCamera& c : calibration.cameras) {
+    if (!(c.focal_off_sigma > 0.0) || std::abs(c.focal_off) <= most * c.focal_off_sigma) continue;
+    most = std::abs(c.focal_off) / c.focal_off_sigma;
+    surest = &c;
+  }
+  if (surest == nullptr) return;
+  // Whether it is the focal lengths or something else of the lens is not known: never worse than usable.
+  if (calibration.focal_share > kGoodPlace)
+    judge.reasonFor(
+        RigVerdict::kUsable,
+        "the recording contradicts the given intrinsics: with focal lengths that fit it (camera " +
+            surest->label + "'s " + number(100.0 * surest->focal_off, 2) +
+            " % off) cameras would stand elsewhere by up to " + number(100.0 * calibration.focal_share, 1) +
+            " % of their distance: calibrate the intrinsics");
 }
 
 void judgeCamera(Judge& judge, const CalibratedCamera& c, const RigCamera& camera, bool metric) {
@@ -130,6 +151,7 @@ void judge(RigCalibration& calibration, std::span<const RigCamera> cameras) {
         RigVerdict::kBad,
         "the target moved along a line, which many camera poses explain: move it through the whole "
         "space");
+  judgeFocals(judge, calibration);
   judgeSelf(judge, calibration);
   const std::string off = "the given poses disagree with the recording by " +
                           number(calibration.given_off_deg, 2) + " degrees and " +

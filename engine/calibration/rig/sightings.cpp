@@ -122,7 +122,8 @@ std::vector<bool> thin(const std::vector<std::vector<std::int32_t>>& cameras_of_
 class TableMaker {
  public:
   TableMaker(TargetKind kind, Timing timing, double period_s, std::span<const RigCamera> cameras)
-      : cameras_(cameras) {
+      : cameras_(cameras), rows_(cameras.size(), 0) {
+    table_.stamps_after_s.assign(cameras.size(), 0.0);
     table_.kind = kind;
     table_.timing = timing;
     table_.period_s = period_s;
@@ -163,6 +164,8 @@ class TableMaker {
         thin(cameras_of_item, cameras_.size(), body ? kMostBodies : kMostPoints, table_.thinned_by);
     for (std::size_t i = 0; i < items.size(); ++i)
       if (keep[i]) add(items[i]);
+    for (std::size_t c = 0; c < rows_.size(); ++c)
+      table_.stamps_after_s[c] /= std::max(1.0, static_cast<double>(rows_[c]));
     return std::move(table_);
   }
 
@@ -187,7 +190,11 @@ class TableMaker {
   }
 
   void add(const std::vector<InstantRow>& item) {
+    double stamp_s = 0.0;
+    for (const InstantRow& r : item) stamp_s += r.row.time_s / static_cast<double>(item.size());
     for (const InstantRow& r : item) {
+      ++rows_[static_cast<std::size_t>(r.row.camera)];
+      table_.stamps_after_s[static_cast<std::size_t>(r.row.camera)] += r.row.time_s - stamp_s;
       Sighting s;
       s.item = table_.items;
       s.camera = r.row.camera;
@@ -204,6 +211,7 @@ class TableMaker {
 
   std::span<const RigCamera> cameras_;
   SightingTable table_;
+  std::vector<long> rows_;  ///< of each camera
 };
 
 }  // namespace

@@ -32,7 +32,8 @@ struct Sighting {
   Eigen::Vector3d in_body = Eigen::Vector3d::Zero();  ///< metres; of a body's point
   PixelMotion motion;                                 ///< along the camera's own track
   bool inlier = false;
-  bool adrift = false;  ///< its camera saw later, and how it moves is unknown: so is where it was at its stamp
+  bool adrift =
+      false;  ///< its camera saw later, and how it moves is unknown: so is where it was at its stamp
 };
 
 /// How rows of cameras that were not exposed at the same instants are brought together.
@@ -52,6 +53,9 @@ struct SightingTable {
   std::vector<long> ambiguous;  ///< of each camera: rows beside another one of the same marker and instant
   int thinned_by = 1;           ///< every how many-th item was kept
   double period_s = 0.0;        ///< between a camera's frames
+  /// Of each camera: by how much its stamps are after those of the items that its rows were put to, on
+  /// average.
+  std::vector<double> stamps_after_s;
   /// How much later than its time stamps say each camera saw, against the first one: see camera_delays.h.
   /// Taken off the pixels. Empty where it was not sought or not found.
   std::vector<double> late_s;

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/calibration/rig/rig_calibration.h"
+#include "engine/calibration/self_calibration_limits.h"
 #include "engine/config/rig_file.h"
 #include "engine/config/rig_writer.h"
 #include "engine/config/text_file.h"
@@ -269,11 +270,11 @@ void addCalibrateRigCommand(CLI::App& calibrate_command, int& exit_code) {
       ->add_option(
           "--refine-markers", arguments->self.marker_sigma_m,
           "METRES: the body's points are off its coordinates by about so much per axis: find them, too")
-      ->check(CLI::Range(0.0, 0.02));
+      ->check(CLI::Range(0.0, kMostMarkerSigmaM));
   command
       ->add_option("--refine-focal", arguments->self.focal_sigma,
                    "SHARE: focal lengths are off the rig's by about so much: find them, too")
-      ->check(CLI::Range(0.0, 0.1));
+      ->check(CLI::Range(0.0, kMostFocalSigma));
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout");
   command->footer(
       "Verdict: good, usable or bad, and why. A bad calibration is not written (exit code 1).\n"

@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/log.h"
 #include "engine/calibration/calibrator_factory.h"
+#include "engine/calibration/self_calibration_limits.h"
 #include "engine/config/calibration_file.h"
 #include "engine/config/plan_file.h"
 #include "engine/config/resource_files.h"
@@ -233,11 +234,11 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("--marker-error", arguments->marker_error_m,
                    "METRES: balls are not where the rig says, by so much per axis, drawn")
-      ->check(CLI::Range(0.0, 0.02));
+      ->check(CLI::Range(0.0, kMostMarkerSigmaM));
   command
       ->add_option("--focal-error", arguments->focal_error,
                    "SHARE: focal lengths are not what the rig says, by so much, drawn per camera")
-      ->check(CLI::Range(0.0, 0.1));
+      ->check(CLI::Range(0.0, kMostFocalSigma));
   command->add_option("--uncalibrated", arguments->uncalibrated, "CAM,...: cameras whose pose is not known")
       ->delimiter(',');
   command->add_option("--tracker", arguments->tracker,
@@ -259,12 +260,12 @@ void addFlyCommand(CLI::App& app, int& exit_code) {
   command
       ->add_option("--refine-markers", arguments->refine_markers_m,
                    "METRES: refinements also find balls that are off the rig's places, by about so much per axis")
-      ->check(CLI::Range(0.0, 0.02))
+      ->check(CLI::Range(0.0, kMostMarkerSigmaM))
       ->needs(refine);
   command
       ->add_option("--refine-focal", arguments->refine_focal,
                    "SHARE: refinements also find focal lengths that are off the rig's, by about so much")
-      ->check(CLI::Range(0.0, 0.1))
+      ->check(CLI::Range(0.0, kMostFocalSigma))
       ->needs(refine);
   command->add_option("--calibration", arguments->calibration,
                       "Cameras stand where this file says, which --save-calibration wrote");

@@ -7,6 +7,7 @@
 #include "engine/base/check.h"
 #include "engine/base/error.h"
 #include "engine/calibration/lasting_inflation.h"
+#include "engine/calibration/self_calibration_limits.h"
 
 namespace helical {
 namespace {
@@ -28,8 +29,8 @@ void validate(const SelfCalibrationOptions& options) {
       throw Error(ErrorKind::kInput, std::string(key) + " is " + std::to_string(value), {},
                   "give 0 (it is as the rig says) to " + std::to_string(most));
   };
-  require(options.marker_sigma_m, 0.02, "marker_sigma_m");
-  require(options.focal_sigma, 0.1, "focal_sigma");
+  require(options.marker_sigma_m, kMostMarkerSigmaM, "marker_sigma_m");
+  require(options.focal_sigma, kMostFocalSigma, "focal_sigma");
 }
 
 void validate(const RigRefinementOptions& options) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/calibration/self_calibration_limits.h"
 #include "engine/config/option_fields.h"
 #include "engine/geometry/rotation.h"
 
@@ -179,8 +180,8 @@ constexpr OptionField<ParticleFilterOptions> kParticleFields[] = {
 };
 
 constexpr OptionField<SelfCalibrationOptions> kSelfCalibrationFields[] = {
-    {"marker_sigma_m", &SelfCalibrationOptions::marker_sigma_m, 1.0, 0.0, 0.02},
-    {"focal_sigma", &SelfCalibrationOptions::focal_sigma, 1.0, 0.0, 0.1},
+    {"marker_sigma_m", &SelfCalibrationOptions::marker_sigma_m, 1.0, 0.0, kMostMarkerSigmaM},
+    {"focal_sigma", &SelfCalibrationOptions::focal_sigma, 1.0, 0.0, kMostFocalSigma},
 };
 
 constexpr OptionField<ObservationNoise> kNoiseFields[] = {

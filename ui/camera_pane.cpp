@@ -37,7 +37,8 @@ QString exposureText(const LightSetting& light) {
 CameraPane::CameraPane(CameraId camera, const RigConfig& rig, QWidget* parent)
     : QWidget(parent), camera_(camera) {
   const CameraConfig& config = rig.cameras[static_cast<std::size_t>(camera.index())];
-  name_ = QString::fromStdString(config.name);
+  for (const CameraConfig& each : rig.cameras) names_ << QString::fromStdString(each.name);
+  name_ = names_[camera.index()];
   title_ = new PanelTitle(name_, theme::cameraColor(camera.index()), this);
   focal_length_px_ = config.model.fx();
   buildTools(config, config.source != "sim" || rig.simulation.images);
@@ -162,6 +163,8 @@ void CameraPane::setState(const CameraSnapshot& state, const EngineSnapshot& now
   QString seen = fresh ? tr("%1 seen  %2 used").arg(state.centroids).arg(state.track.selected_count)
                        : tr("nothing new for over 1 s");
   if (state.dropped > 0) seen += tr("  %1 dropped").arg(state.dropped);
+  const CameraId stream = now.streams[static_cast<std::size_t>(camera_.index())];
+  if (stream != camera_) seen += tr("  by the cable of %1").arg(names_[stream.index()]);
   const bool used = fresh && state.track.selected_count > 0;
   view_->setCaptions(seen, used ? residualText(state, now) : QString());
 }

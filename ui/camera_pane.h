@@ -63,6 +63,7 @@ class CameraPane : public QWidget {
   void setHidden(bool hidden);
 
   CameraId camera_;
+  QStringList names_;  ///< of all cameras
   QString name_;
   PanelTitle* title_;
   QToolButton* button_;

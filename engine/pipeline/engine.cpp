@@ -17,9 +17,20 @@ constexpr double kFieldClear = 1.0;  // s, for a background of simulated cameras
 }  // namespace
 
 void Engine::Implementation::tamper(std::size_t camera) {
-  TamperingChannel& channel = *hardware.tampering[camera];
+  TamperingChannel& channel = *hardware.tampering[static_cast<std::size_t>(streams[camera].index())];
   channel.back() = tampering[camera];
   channel.publish();
+}
+
+/// What the operator ordered of a camera goes with it when its frames come by another cable.
+void Engine::Implementation::followCables() {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const CameraId stream = newest.front().streams[i];
+    if (stream == streams[i]) continue;
+    streams[i] = stream;
+    tamper(i);
+    hardware.orders[static_cast<std::size_t>(stream.index())]->ignore(ignored[i]);
+  }
 }
 
 void Engine::Implementation::replaceCalibration(std::size_t index, const std::string& method) {
@@ -172,7 +183,8 @@ void Engine::change(const FlightChange& change) {
 }
 
 void Engine::setIgnoredAreas(CameraId camera, const IgnoredAreas& areas) {
-  implementation_->hardware.orders[static_cast<std::size_t>(camera.index())]->ignore(areas);
+  implementation_->ignored[static_cast<std::size_t>(camera.index())] = areas;
+  implementation_->hardware.orders[implementation_->streamOf(camera)]->ignore(areas);
 }
 
 void Engine::setCalibrator(const std::string& method) {
@@ -214,24 +226,27 @@ void Engine::adoptCalibration(const std::filesystem::path& file, std::optional<C
   if (only) saved = onlyOf(saved, implementation_->rig.cameras[static_cast<std::size_t>(only->index())]);
   for (const CalibrationOrder& order : adoptOrders(saved, implementation_->rig))
     if (!orderCalibration(order))
-      throw Error(ErrorKind::kSystem, "the engine is still busy with earlier orders", file.string(), "try again");
+      throw Error(ErrorKind::kSystem, "the engine is still busy with earlier orders", file.string(),
+                  "try again");
 }
 
 bool Engine::poll() {
   for (auto& calibration : implementation_->new_calibrations) calibration.collect();
   implementation_->new_change.collect();
-  return implementation_->newest.take();
+  if (!implementation_->newest.take()) return false;
+  implementation_->followCables();
+  return true;
 }
 const EngineSnapshot& Engine::snapshot() const {
   return implementation_->newest.front();
 }
 
 bool Engine::pollPicture(CameraId camera) {
-  return implementation_->taps[static_cast<std::size_t>(camera.index())].pictures().take();
+  return implementation_->taps[implementation_->streamOf(camera)].pictures().take();
 }
 
 const CameraPicture& Engine::picture(CameraId camera) const {
-  return implementation_->taps[static_cast<std::size_t>(camera.index())].pictures().front();
+  return implementation_->taps[implementation_->streamOf(camera)].pictures().front();
 }
 
 bool Engine::pollCalibration(CameraId camera) {

@@ -60,6 +60,7 @@ struct Engine::Implementation {
         announcer(rig) {
     for (std::size_t i = 0; i < hardware.sources.size(); ++i)
       queues.push_back(std::make_unique<ObservationQueue>());
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i) ignored[i] = rig.cameras[i].ignored_areas;
   }
 
   void capture(std::size_t index, const std::stop_token& stop);
@@ -74,6 +75,10 @@ struct Engine::Implementation {
   void showCalibrations(std::uint64_t tick, TimeNs now);
   void addOrders(EngineSnapshot& snapshot) const;
   void measureRate(EngineSnapshot& snapshot);
+  std::size_t streamOf(CameraId camera) const {
+    return static_cast<std::size_t>(streams[static_cast<std::size_t>(camera.index())].index());
+  }
+  void followCables();
   void tamper(std::size_t camera);
   void replaceCalibration(std::size_t camera, const std::string& method);
   void raise(const EngineEvent& event) {
@@ -117,7 +122,9 @@ struct Engine::Implementation {
   // Reading thread.
   ControllerOptions control;
   ColourRange colour;
-  std::array<Tampering, kMaxCameras> tampering{};
+  CameraStreams streams = ownStreams();             ///< as of the newest snapshot
+  std::array<Tampering, kMaxCameras> tampering{};   ///< with each camera's frames, whatever cable they come by
+  std::array<IgnoredAreas, kMaxCameras> ignored{};  ///< likewise
   std::vector<std::shared_ptr<const FlightChange>> changes;  ///< all: nobody else frees one
 
   LatestValue<EngineSnapshot> newest;

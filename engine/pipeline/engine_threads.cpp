@@ -16,12 +16,9 @@ constexpr double kUrgentFrames = 400.0;
 /// Drawn by this machine, all cameras together.
 double drawnPerSecond(const RigConfig& rig) {
   return rig.simulation.camera_rate_hz *
-         static_cast<double>(std::count_if(rig.cameras.begin(), rig.cameras.end(),
-                                           [](const CameraConfig& camera) { return camera.source == "sim"; }));
-}
-
-std::size_t cameraOf(const Observation& observation) {
-  return static_cast<std::size_t>(observation.camera.index());
+         static_cast<double>(
+             std::count_if(rig.cameras.begin(), rig.cameras.end(),
+                           [](const CameraConfig& camera) { return camera.source == "sim"; }));
 }
 
 }  // namespace
@@ -61,8 +58,7 @@ void Engine::Implementation::receive() {
     if (oldest == queues.size()) return;
     const TimeNs now = clock->now();
     loop.onObservation(heads[oldest], now);
-    if (tap != nullptr)
-      tap->onObservation(heads[oldest], now, loop.snapshot().cameras[cameraOf(heads[oldest])].track);
+    if (tap != nullptr) tap->onObservation(heads[oldest], now, loop.lastTrack());
     has_head[oldest] = false;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/clock.h"
 #include "engine/pipeline/ball_forecast.h"
@@ -52,6 +53,7 @@ void FlightLoop::onObservation(const Observation& observation, TimeNs now) {
 void FlightLoop::use(const Observation& observation, TimeNs now) {
   const TimeNs begin = stopwatch().now();
   const auto index = static_cast<std::size_t>(observation.camera.index());
+  last_used_ = index;
   count(observation, now);
   health_.onObservation(observation, now);
   if (now - observation.exposure > kLatest || health_.clockHasJumped(observation.camera)) return;
@@ -62,7 +64,8 @@ void FlightLoop::use(const Observation& observation, TimeNs now) {
   const TimeNs last_update = tracker_->lastUpdate();
   tracker_->update(observation, control_set_.estimates(), control_set_.usable(), airborne_);
   // Frames that waited for a starved processor are as old as they are.
-  if (tracker_->lastUpdate() != last_update) pose_time_ = std::max(pose_time_, std::min(now, observation.arrival));
+  if (tracker_->lastUpdate() != last_update)
+    pose_time_ = std::max(pose_time_, std::min(now, observation.arrival));
   control_set_.learn(observation, *tracker_, airborne_);
   watchCables(observation);
   snapshot_.cameras[index].track = tracker_->track(observation.camera);
@@ -75,8 +78,18 @@ void FlightLoop::watchCables(const Observation& observation) {
   const CableWatch::Verdict verdict =
       cables_.add(observation, control_set_.places(), control_set_.usable(), *tracker_, airborne_);
   if (verdict.finding == CableWatch::Finding::kNothing) return;
+  if (verdict.finding == CableWatch::Finding::kChanged) exchangeStreams(verdict.camera, verdict.other);
   control_set_.standsAsBefore(verdict.camera);
   control_set_.standsAsBefore(verdict.other);
+}
+
+/// What is counted of frames is counted of streams: each has a sequence of its own.
+void FlightLoop::exchangeStreams(CameraId a, CameraId b) {
+  const auto first = static_cast<std::size_t>(a.index());
+  const auto second = static_cast<std::size_t>(b.index());
+  std::swap(snapshot_.streams[first], snapshot_.streams[second]);
+  std::swap(counters_[first], counters_[second]);
+  health_.exchange(a, b);
 }
 
 void FlightLoop::swapPlan(FlightPlan& plan) {

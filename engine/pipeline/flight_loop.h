@@ -42,6 +42,11 @@ class FlightLoop {
   }
   const CameraCalibration* calibration(CameraId camera) const { return control_set_.calibration(camera); }
 
+  /// The camera at the other end of a stream's cable.
+  CameraId cameraOf(CameraId stream) const { return cables_.cameraOf(stream); }
+  /// What the tracker made of the last observation.
+  const CameraTrack& lastTrack() const { return snapshot_.cameras[last_used_].track; }
+
   /// Where the balls should be in the images of a stream, after the last tick; nothing while that is not known.
   BallPredictions expectedBalls(CameraId stream) const;
 
@@ -58,6 +63,7 @@ class FlightLoop {
   };
   void use(const Observation& observation, TimeNs now);
   void watchCables(const Observation& observation);
+  void exchangeStreams(CameraId a, CameraId b);
   void count(const Observation& observation, TimeNs now);
   void measureRates(TimeNs now);
   void fillSnapshot(TimeNs now, const AutopilotOutput& output);
@@ -67,6 +73,7 @@ class FlightLoop {
   ControlSet control_set_;
   CableWatch cables_;
   Observation of_its_camera_;
+  std::size_t last_used_ = 0;  ///< the camera of the last observation
   HealthMonitor health_;
   Autopilot autopilot_;
   EngineSnapshot snapshot_;

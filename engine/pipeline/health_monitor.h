@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 
 #include "engine/config/rig_config.h"
 #include "engine/flight/system_health.h"
@@ -19,6 +20,10 @@ class HealthMonitor {
   explicit HealthMonitor(const RigConfig& rig);
 
   void onObservation(const Observation& observation, TimeNs now);
+  /// Each sends the frames of the other from now on.
+  void exchange(CameraId a, CameraId b) {
+    std::swap(cameras_[static_cast<std::size_t>(a.index())], cameras_[static_cast<std::size_t>(b.index())]);
+  }
   /// The stamps of its newest frame are wrong: what it shows was somewhere else.
   bool clockHasJumped(CameraId camera) const {
     return cameras_[static_cast<std::size_t>(camera.index())].clock.hasJumped();

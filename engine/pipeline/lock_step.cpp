@@ -111,8 +111,7 @@ void LockStep::show(const OperatorCommands& commands, TimeNs now) {
 void LockStep::use(const Observation& observation) {
   const TimeNs now = clock_->now();
   loop_.onObservation(observation, now);
-  const auto camera = static_cast<std::size_t>(observation.camera.index());
-  if (tap_ != nullptr) tap_->onObservation(observation, now, loop_.snapshot().cameras[camera].track);
+  if (tap_ != nullptr) tap_->onObservation(observation, now, loop_.lastTrack());
 }
 
 void LockStep::change(const FlightChange& change) {

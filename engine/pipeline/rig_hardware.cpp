@@ -32,15 +32,16 @@ void RigHardware::addTruth(EngineSnapshot& snapshot, TimeNs now) const {
 
 void RigHardware::addLinks(EngineSnapshot& snapshot) const {
   for (std::size_t i = 0; i < links.size(); ++i) {
-    const CameraLink& link = *links[i];
-    snapshot.cameras[i].link = link.state.load(std::memory_order_relaxed);
-    snapshot.cameras[i].returns = link.returns.load(std::memory_order_relaxed);
-    snapshot.cameras[i].resent_packets = link.resent.load(std::memory_order_relaxed);
-    snapshot.cameras[i].transfer = link.first_packet_to_frame.load(std::memory_order_relaxed);
-    snapshot.cameras[i].clock_sigma_s = link.clock_sigma_s.load(std::memory_order_relaxed);
-    snapshot.cameras[i].light = {link.exposure_us.load(std::memory_order_relaxed),
-                                 link.gain.load(std::memory_order_relaxed),
-                                 link.gain_in_db.load(std::memory_order_relaxed)};
+    CameraSnapshot& camera = snapshot.cameras[i];
+    const CameraLink& link = *links[static_cast<std::size_t>(snapshot.streams[i].index())];
+    camera.link = link.state.load(std::memory_order_relaxed);
+    camera.returns = link.returns.load(std::memory_order_relaxed);
+    camera.resent_packets = link.resent.load(std::memory_order_relaxed);
+    camera.transfer = link.first_packet_to_frame.load(std::memory_order_relaxed);
+    camera.clock_sigma_s = link.clock_sigma_s.load(std::memory_order_relaxed);
+    camera.light = {link.exposure_us.load(std::memory_order_relaxed),
+                    link.gain.load(std::memory_order_relaxed),
+                    link.gain_in_db.load(std::memory_order_relaxed)};
   }
 }
 
@@ -71,8 +72,8 @@ std::unique_ptr<ObservationSource> extracted(RigHardware& hardware, const RigCon
                                              const CameraConfig& camera, std::unique_ptr<CameraSource> source,
                                              const ExtractingSource::FrameTap& tap) {
   auto tampered = std::make_unique<TamperedCamera>(std::move(source), hardware.tampering.back());
-  return std::make_unique<ExtractingSource>(std::move(tampered), rig.marker_options, tap, hardware.orders.back(),
-                                            camera.model);
+  return std::make_unique<ExtractingSource>(std::move(tampered), rig.marker_options, tap,
+                                            hardware.orders.back(), camera.model);
 }
 
 void addSimulated(RigHardware& hardware, const RigConfig& rig, const CameraConfig& camera,
@@ -84,15 +85,14 @@ void addSimulated(RigHardware& hardware, const RigConfig& rig, const CameraConfi
   hardware.disturbances.back().emplace(id, rig.simulation, truth,
                                        randomStream(rig.simulation.seed, RandomStream::kKnocks, id));
   if (rig.simulation.images) {
-    auto source = std::make_unique<SimulatedCamera>(id, model, truth, markers,
-                                                    rig.marker_options.background_frames, rig.simulation,
-                                                    hardware.world, clock);
+    auto source =
+        std::make_unique<SimulatedCamera>(id, model, truth, markers, rig.marker_options.background_frames,
+                                          rig.simulation, hardware.world, clock);
     hardware.sources.push_back(std::make_unique<DisturbedSource>(
         extracted(hardware, rig, camera, std::move(source), tap), camera.model, rig.simulation));
   } else {
-    auto source =
-        std::make_unique<SimulatedObserver>(id, model, truth, markers, rig.marker_options,
-                                            rig.simulation, hardware.world, clock);
+    auto source = std::make_unique<SimulatedObserver>(id, model, truth, markers, rig.marker_options,
+                                                      rig.simulation, hardware.world, clock);
     auto tampered = std::make_unique<TamperedObserver>(std::move(source), hardware.tampering.back());
     hardware.sources.push_back(std::make_unique<IgnoringSource>(std::move(tampered), hardware.orders.back()));
   }
@@ -107,8 +107,8 @@ void addDevice(RigHardware& hardware, const RigConfig& rig, const CameraConfig& 
 
 }  // namespace
 
-RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock,
-                    const ExtractingSource::FrameTap& tap, double carried_s) {
+RigHardware openRig(const RigConfig& rig, std::shared_ptr<Clock> clock, const ExtractingSource::FrameTap& tap,
+                    double carried_s) {
   RigHardware hardware;
   const bool simulated = std::any_of(rig.cameras.begin(), rig.cameras.end(),
                                      [](const CameraConfig& camera) { return camera.source == "sim"; });

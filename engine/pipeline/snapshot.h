@@ -73,6 +73,15 @@ struct DeviceStatus {
   RecordHealth record;
 };
 
+/// Of each camera, the one by whose cable its frames come.
+using CameraStreams = std::array<CameraId, kMaxCameras>;
+
+constexpr CameraStreams ownStreams() {
+  CameraStreams streams;
+  for (int i = 0; i < kMaxCameras; ++i) streams[static_cast<std::size_t>(i)] = cameraId(i);
+  return streams;
+}
+
 /// The engine's state at one control tick; a plain value, copied to readers through a LatestValue.
 struct EngineSnapshot {
   TimeNs time = 0;
@@ -103,6 +112,7 @@ struct EngineSnapshot {
   const char* cold_start = nullptr;  ///< no camera is calibrated: what the operator has to do; a literal
   bool cameras_disagree = false;     ///< one of the two that are left was moved; which one, nobody can tell
   std::uint32_t cables_changed = 0;  ///< how often two cameras were found at each other's cable
+  CameraStreams streams = ownStreams();  ///< other than their own since two were found exchanged
   bool has_truth = false;          ///< simulated flights only
   HelicopterState truth;           ///< at `time`
   Verdict verdict;                 ///< valid with `has_truth`

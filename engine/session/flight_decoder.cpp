@@ -76,6 +76,12 @@ FlightDecoder::Found FlightDecoder::take(const McapMessage& message) {
   return Found::kNothing;
 }
 
+std::size_t FlightDecoder::cameraBy(std::size_t stream) const {
+  for (std::size_t i = 0; i < tick_.streams.size(); ++i)
+    if (static_cast<std::size_t>(tick_.streams[i].index()) == stream) return i;
+  return stream;  // of a damaged session
+}
+
 FlightDecoder::Found FlightDecoder::takeOfCamera(const Source& source, std::string_view payload) {
   CameraSnapshot& camera = tick_.cameras[source.camera];
   switch (source.stream) {
@@ -84,7 +90,7 @@ FlightDecoder::Found FlightDecoder::takeOfCamera(const Source& source, std::stri
       observation_.camera = cameraId(static_cast<int>(source.camera));
       return Found::kObservation;
     case Stream::kTrack:
-      camera.track = decodeTrack(payload);
+      tick_.cameras[cameraBy(source.camera)].track = decodeTrack(payload);
       break;
     case Stream::kExtrinsics:
       decodeExtrinsics(payload, camera.estimate);

@@ -54,6 +54,8 @@ class FlightDecoder {
     std::size_t camera = 0;
   };
   static std::size_t indexOf(CameraId camera) { return static_cast<std::size_t>(camera.index()); }
+  /// The camera whose frames come by this one's cable.
+  std::size_t cameraBy(std::size_t stream) const;
   Found takeOfCamera(const Source& source, std::string_view payload);
 
   std::map<std::uint16_t, Source> sources_;  ///< by channel

@@ -157,6 +157,11 @@ DecodedTick decodeFlightState(std::string_view payload, EngineSnapshot& state, W
   state.colours = in.get<std::uint32_t>();
   state.cameras_disagree = in.getBool();
   state.cold_start = getWord(in, words);
+  if (in.atEnd()) return tick;  // likewise
+  const std::string_view streams = in.getBytes();
+  for (std::size_t i = 0; i < std::min(streams.size(), state.streams.size()); ++i)
+    if (const int stream = static_cast<unsigned char>(streams[i]); stream < state.camera_count)
+      state.streams[i] = cameraId(stream);
   return tick;
 }
 

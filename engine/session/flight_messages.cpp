@@ -342,6 +342,8 @@ void encodeFlightState(CdrWriter& out, std::uint64_t order, const FlightTick& ti
   out.put(state.colours);
   out.put(state.cameras_disagree);
   out.putText(state.cold_start != nullptr ? state.cold_start : "");
+  out.put(static_cast<std::uint32_t>(state.camera_count));
+  for (int i = 0; i < state.camera_count; ++i) out.put(state.streams[static_cast<std::size_t>(i)].value);
 }
 
 namespace {

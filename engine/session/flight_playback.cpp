@@ -133,15 +133,16 @@ void FlightPlayback::take(const McapMessage& message, bool queue_ticks) {
 }
 
 bool FlightPlayback::pollPicture(CameraId camera) {
-  Picture& now = pictures_[indexOf(camera)];
+  const auto stream = cameraId(static_cast<int>(streamOf(camera)));
+  Picture& now = pictures_[indexOf(stream)];
   CameraPicture& shown = now.picture;
   const CameraModel& model = settings_.rig.cameras[indexOf(camera)].model;
   const TimeNs shown_image = now.image;
   now.image = -1;
-  if (images_.hasImages(camera)) {
+  if (images_.hasImages(stream)) {
     // A camera that was lost shows its last image; one whose images were not recorded for a while does not.
     const TimeNs oldest = std::min(now.observation.exposure, position_) - kLongestWithoutImage;
-    now.image = images_.load(camera, oldest, position_, shown_image, shown);
+    now.image = images_.load(stream, oldest, position_, shown_image, shown);
   }
   const bool fresh = std::exchange(now.fresh, false);
   if (now.image >= 0) {

@@ -62,7 +62,7 @@ class FlightPlayback final : public FlightView {
   bool poll() override;  ///< also moves on
   const EngineSnapshot& snapshot() const override { return decoder_.tick(); }
   bool pollPicture(CameraId camera) override;
-  const CameraPicture& picture(CameraId camera) const override { return pictures_[indexOf(camera)].picture; }
+  const CameraPicture& picture(CameraId camera) const override { return pictures_[streamOf(camera)].picture; }
   bool pollCalibration(CameraId camera) override;
   const CalibrationView& calibration(CameraId camera) const override { return decoder_.belief(camera); }
   bool nextTick(EngineSnapshot& tick) override;
@@ -77,6 +77,7 @@ class FlightPlayback final : public FlightView {
     TimeNs image = -1;  ///< log time of the image shown
   };
   static std::size_t indexOf(CameraId camera) { return static_cast<std::size_t>(camera.index()); }
+  std::size_t streamOf(CameraId camera) const { return indexOf(snapshot().streams[indexOf(camera)]); }
   void moveOn();
   void advance(TimeNs to, bool queue_ticks);
   void take(const McapMessage& message, bool queue_ticks);
@@ -98,7 +99,7 @@ class FlightPlayback final : public FlightView {
   std::uint64_t jumps_ = 0, lost_ = 0;
   bool fresh_ = false;
   TickRing ticks_;
-  std::array<Picture, kMaxCameras> pictures_{};
+  std::array<Picture, kMaxCameras> pictures_{};  ///< of streams
   std::array<std::uint64_t, kMaxCameras> beliefs_shown_{};
 };
 

@@ -106,7 +106,9 @@ constexpr Definition kDefinitions[] = {
      "uint32 controls         # of gains and trims\n"
      "uint32 colours          # of the markers' colour\n"
      "bool cameras_disagree\n"
-     "string cold_start       # what the operator has to do while no camera is calibrated\n"},
+     "string cold_start       # what the operator has to do while no camera is calibrated\n"
+     "uint8[] streams         # of each camera the one, counted from 0, by whose cable its frames come: that one's\n"
+     "                        # images, observations and tracks are of this camera\n"},
     {"helical_msgs/CameraState",
      "std_msgs/Header header\nuint8 status\nstring status_name\nbool hidden\n"
      "string calibration_method  # empty: the pose was given\n"

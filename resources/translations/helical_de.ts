@@ -328,6 +328,10 @@
         <translation>  %1 verloren</translation>
     </message>
     <message>
+        <source>  by the cable of %1</source>
+        <translation>  über das Kabel von %1</translation>
+    </message>
+    <message>
         <source>residual %1 px  %2 mm</source>
         <translation>Rest %1 px  %2 mm</translation>
     </message>

@@ -225,6 +225,46 @@ TEST(Playback, ImagesThatWereRecordedForAWhileAreShownThenAndOnlyThen) {
   EXPECT_FALSE(image(0.5)) << "back before the first one";
 }
 
+TEST(Playback, PicturesAndTracksAreTheCamerasWhateverCableTheyCameBy) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.mcap";
+  constexpr int kTicksOfBoth = 240, kExchanged = 120;
+  {
+    Recorder recorder(file, test::hoverSettings(31), Recorder::WhenFull::kWait);
+    EngineSnapshot state;
+    state.camera_count = 3;
+    for (int i = 0; i < kTicksOfBoth; ++i) {
+      state.time = i * kNanosecondsPerSecond / 60;
+      state.tick = static_cast<std::uint64_t>(i);
+      if (i == kExchanged) std::swap(state.streams[0], state.streams[1]);
+      for (int stream = 0; stream < 3; ++stream) {
+        Observation observation;
+        observation.camera = cameraId(stream);
+        observation.exposure = observation.arrival = state.time;
+        observation.count = 1 + stream;
+        CameraTrack track;
+        track.exposure = state.time;
+        track.selected_count = 1 + stream;
+        recorder.onObservation(observation, state.time, track);
+      }
+      recorder.onTick({}, state);
+    }
+  }
+  FlightPlayback playback(file, std::make_shared<ManualClock>());
+  const auto seenBy = [&](int camera, double seconds) {
+    playback.seek(fromSeconds(seconds));
+    playback.pollPicture(cameraId(camera));
+    const int seen = playback.picture(cameraId(camera)).observation.count;
+    EXPECT_EQ(playback.snapshot().cameras[static_cast<std::size_t>(camera)].track.selected_count, seen);
+    return seen;
+  };
+  for (const auto& [camera, before, after] : {std::array{0, 1, 2}, {1, 2, 1}, {2, 3, 3}}) {
+    EXPECT_EQ(seenBy(camera, 1.5), before) << camera;
+    EXPECT_EQ(seenBy(camera, 3.0), after) << camera;
+    EXPECT_EQ(seenBy(camera, 1.0), before) << camera;
+  }
+}
+
 TEST(Playback, WhatIsNoSessionIsRefused) {
   const TemporaryFolder folder;
   test::writeBytes(folder / "foreign.mcap", "no session");

@@ -1,4 +1,5 @@
-// The engine in real time on drawn images. Not under sanitizers: drawing is not what they are for, and takes minutes there.
+// The engine in real time on drawn images. Not under sanitizers: drawing is not what they are for, and takes
+// minutes there.
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,37 @@ TEST(EngineOnImages, TakesAnotherColourAndANewBackground) {
   engine.takeBackground();
   ASSERT_TRUE(waitUntil(engine, blind));
   ASSERT_TRUE(waitUntil(engine, seen)) << "the helicopter is not part of the background";
+}
+
+TEST(EngineOnImages, PicturesAndBoardsAreTheCamerasWhateverCableTheyComeBy) {
+  RigConfig rig = test::shippedRig("calibrated", 4);
+  rig.simulation.images = true;
+  // Cables exchanged before the start: each stands where the other one should.
+  rig.simulation.true_camera_from_world = {rig.cameras[1].camera_from_world, rig.cameras[0].camera_from_world,
+                                           rig.cameras[2].camera_from_world};
+  Engine engine(rig, loadPlan(planPath("hover")));
+  WhiteBoards corner;
+  corner.count = 1;
+  corner.boards[0].count = 4;
+  corner.boards[0].corners = {Eigen::Vector2d{0.0, 0.0}, {60.0, 0.0}, {60.0, 60.0}, {0.0, 60.0}};
+  engine.setBoards(cameraId(0), corner);
+  engine.start();
+  ASSERT_TRUE(waitUntil(engine, [](const EngineSnapshot& now) { return now.cables_changed == 1; }));
+  const auto white = [&](int camera) {
+    const CameraPicture& picture = engine.picture(cameraId(camera));
+    const std::size_t at = 3 * static_cast<std::size_t>(30 * picture.width + 30);
+    return picture.bgr.size() > at + 3 &&
+           std::min({picture.bgr[at], picture.bgr[at + 1], picture.bgr[at + 2]}) > 200;
+  };
+  ASSERT_TRUE(waitUntil(engine, [&](const EngineSnapshot& now) {
+    for (const int camera : {0, 1}) engine.pollPicture(cameraId(camera));
+    return now.streams[0] == cameraId(1) && white(0) && !white(1);
+  })) << "the board went with its camera";
+  engine.setBoards(cameraId(0), {});
+  EXPECT_TRUE(waitUntil(engine, [&](const EngineSnapshot&) {
+    engine.pollPicture(cameraId(0));
+    return !white(0);
+  }));
 }
 
 TEST(EngineOnImages, PicturesComeWithWhatWasFoundInThem) {

@@ -24,6 +24,8 @@ constexpr double kLeastNoise = 0.25, kMostNoise = 2.0;  // variance over the one
 constexpr double kMotionAllowance = 4.0;
 // On average over all cameras: more is a jolt of the helicopter, which no parabola follows.
 constexpr double kCalmMisfit = 1.4;
+// Noise beyond what was learnt, as many standard deviations of a mean misfit beyond one as are no chance.
+constexpr double kUnrestSigmas = 2.0;
 constexpr double kLeastJerkM = 1e-6;
 constexpr double kAlikeSigmas = 3.0;  // from the median: balls whose steps count
 constexpr double kChosenLoss = 1.05;  // variance of the mean of those over that of all
@@ -65,6 +67,11 @@ class TrackFit {
   double squares_ = 0.0;
   std::array<int, 2> count_{};
 };
+
+/// By how much noise is now more than was learnt, which is slow: gusts, a touchdown. `freedoms`: of a mean misfit.
+double unrestOf(double mean_misfit, double freedoms) {
+  return std::max(1.0, mean_misfit / (1.0 + kUnrestSigmas * std::sqrt(2.0 / freedoms)));
+}
 
 double median(std::array<double, kMaxMarkers> values, std::size_t count) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
@@ -159,6 +166,7 @@ StepDetector::Step StepDetector::measure(const Camera& camera, const Window& win
   if (!pixels) return step;
   step.pixels = *pixels;
   step.misfit /= balls;
+  step.freedoms = 2.0 * balls * (length - 4);
   step.variance = kChosenLoss * each / balls + floor;
   step.of_jerk_s3 = std::abs(of_cube / balls) / (6.0 * kPerSecond * kPerSecond * kPerSecond);
   step.known = true;
@@ -215,12 +223,13 @@ int StepDetector::judge(std::size_t newest, std::size_t window) {
   const TimeNs time = cameras_[newest].steps[window].time;
   std::array<std::size_t, kMaxCameras> together;
   std::size_t count = 0;
-  double misfit = 0.0;
+  double misfit = 0.0, freedoms = 0.0;
   for (std::size_t c = 0; c < kMaxCameras; ++c) {
     const Step& step = cameras_[c].steps[window];
     if (!step.known || time - step.time >= kSameTime || step.time - time >= kSameTime) continue;
     together[count++] = c;
     misfit += step.misfit;
+    freedoms += step.freedoms;
   }
   if (count < kFewestCameras || misfit > kCalmMisfit * static_cast<double>(count)) return -1;
   const std::span<const std::size_t> cameras(together.data(), count);
@@ -232,7 +241,11 @@ int StepDetector::judge(std::size_t newest, std::size_t window) {
   usual_m2 += (motionOf(cameras, window, jerk_m * jerk_m).shift.squaredNorm() / 3.0 - usual_m2) / kMotionFrames;
   usual_m2 = std::max(usual_m2, kLeastJerkM * kLeastJerkM);
   const Motion motion = motionOf(cameras, window, prior_m2);
-  if (motion.chi2 < options_.alarm_chi2) return -1;
+  // Every camera more is one more that chance may name.
+  const double unrest = unrestOf(misfit / static_cast<double>(count), freedoms);
+  const double alarm =
+      unrest * (options_.alarm_chi2 + 2.0 * std::log(static_cast<double>(count) / kFewestCameras));
+  if (motion.chi2 < alarm) return -1;
   double best = 0.0, second = 0.0;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -251,8 +264,8 @@ int StepDetector::judge(std::size_t newest, std::size_t window) {
       second = std::max(second, explained);
     }
   }
-  const double rest = options_.rest_chi2 * static_cast<double>(count - 1);
-  if (best < options_.alarm_chi2 || best - second < options_.margin_chi2 || motion.chi2 - best > rest) return -1;
+  const double rest = unrest * options_.rest_chi2 * static_cast<double>(count - 1);
+  if (best < alarm || best - second < unrest * options_.margin_chi2 || motion.chi2 - best > rest) return -1;
   return cameras_[moved].steps[window].pixels.norm() >= options_.smallest_px ? static_cast<int>(moved) : -1;
 }
 

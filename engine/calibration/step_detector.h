@@ -8,7 +8,7 @@
 namespace helical {
 
 struct StepDetectorOptions {
-  double alarm_chi2 = 32.0;    ///< that a step of one camera must explain
+  double alarm_chi2 = 32.0;    ///< that a step of one camera of three must explain
   double margin_chi2 = 12.0;   ///< by which it must explain more than a step of any other camera
   double rest_chi2 = 4.5;      ///< per other camera: more that stays unexplained is no knock of one camera
   double floor_px = 0.02;      ///< of a step, per axis, beside the noise of its centroids
@@ -31,6 +31,7 @@ void validate(const StepDetectorOptions& options);
 ///
 /// What can be found: of white noise of 0.08 px the longest window makes a step of 0.05 px, so that `alarm_chi2` asks
 /// for 0.28 px; three camera-hours are two million looks, of which chance alone lets one in exp(16) pass, nine million.
+/// With more cameras, or where noise has just risen, as much more is asked for as keeps that true.
 /// One thread; allocates nothing.
 class StepDetector {
  public:
@@ -56,6 +57,7 @@ class StepDetector {
     Eigen::Vector2d pixels = Eigen::Vector2d::Zero();
     double variance = 0.0;     ///< per axis
     double misfit = 0.0;       ///< variance that the fits leave over what is expected
+    double freedoms = 0.0;     ///< that this rests on
     double of_jerk_s3 = 0.0;   ///< step that the fit takes a unit jerk for
   };
   struct Camera {

@@ -40,7 +40,7 @@ class Scene {
     ++frame_;
     int found = -1;
     for (std::size_t c = 0; c < d_world_.size(); ++c) {
-      const double time = (static_cast<double>(frame_) + static_cast<double>(c) / 3.0) / kRateHz;
+      const double time = (static_cast<double>(frame_) + static_cast<double>(c % 3) / 3.0) / kRateHz;
       NamedBalls balls;
       balls.exposure = fromSeconds(time);
       balls.variance = static_cast<float>(sigma_px_ * sigma_px_);
@@ -48,7 +48,7 @@ class Scene {
         Eigen::Vector2d& offset = offsets_[kBalls * c + m];
         offset += -offset / kRateHz + 0.08 * std::sqrt(2.0 / kRateHz) * noise();
         Eigen::Vector2d pixel = d_world_[c] * place(time) + 40.0 * Eigen::Vector2d(m % 2, m / 2) + steps_[c] + offset +
-                                sigma_px_ * noise();
+                                unrest_ * sigma_px_ * noise();
         // Most false centroids lie nowhere near the ball: then it has none.
         const bool thrown = random_.uniform() < outliers, near = random_.uniform() < kNear;
         if (thrown && !near) continue;
@@ -64,6 +64,8 @@ class Scene {
   void knock(std::size_t camera, double px, double direction) {
     steps_[camera] += px * Eigen::Vector2d(std::cos(direction), std::sin(direction));
   }
+  /// Standard deviation of the centroids over what they claim.
+  void disturb(double unrest) { unrest_ = unrest; }
   /// Its speed changes at once, as when it touches down [m/s].
   void jolt(const Eigen::Vector3d& by) {
     jolt_ = by;
@@ -81,7 +83,7 @@ class Scene {
   }
 
   Random random_;
-  double sigma_px_;
+  double sigma_px_, unrest_ = 1.0;
   StepDetector detector_;
   std::vector<Eigen::Matrix<double, 2, 3>> d_world_;
   std::vector<Eigen::Vector2d> offsets_, steps_;
@@ -120,6 +122,17 @@ TEST(StepDetector, FindsTwoPixelsInFourFrames) {
 TEST(StepDetector, BearsOutliersAndMotionForFiveMinutes) {
   Scene scene(3, 7);
   for (long f = 0; f < 60L * 60L * 5L; ++f) ASSERT_EQ(scene.next(0.1), -1) << "frame " << f;
+}
+
+/// Before that is learnt. With the alarm of three calm cameras four are named.
+TEST(StepDetector, BearsMomentsOfMoreNoiseWithEightCameras) {
+  int named = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    Scene scene(8, seed);
+    scene.disturb(1.15);
+    for (int f = 0; f < 40; ++f) named += scene.next() >= 0;
+  }
+  EXPECT_LE(named, 1);
 }
 
 TEST(StepDetector, AJoltOfTheHelicopterIsNoKnock) {

@@ -10,6 +10,7 @@ enum class RefinementOutcome : std::uint8_t {
   kCorrected,  ///< and balls or focal lengths are as they were found
   kKept,       ///< they stay as they were: images are explained as well by those
   kUnsound,    ///< they stay as they were: what was found cannot be
+  kTooFar,     ///< they stay as they were: the helicopter's pose would have jumped farther than flying on bears
   kNoAnswer,   ///< nothing is changed
   kOvertaken,  ///< something happened to a camera meanwhile, and nothing is changed
 };

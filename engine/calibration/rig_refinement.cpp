@@ -1,5 +1,6 @@
 #include "engine/calibration/rig_refinement.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/calibration/lasting_inflation.h"
 #include "engine/calibration/self_calibration_limits.h"
+#include "engine/geometry/rotation.h"
 
 namespace helical {
 namespace {
@@ -20,6 +22,37 @@ constexpr double kOpenFocal = 0.4;
 // For balls and focal lengths: one camera by itself sees a helicopter of other balls at another distance.
 constexpr int kFewestCameras = 2;
 constexpr int kSliceOfAll = 18;  // moments times cameras looked at with one observation
+
+/// That chi-square passes as rarely as a normal deviate passes `sigmas` (Wilson and Hilferty).
+double chi2Beyond(double sigmas, double freedoms) {
+  const double spread = 2.0 / (9.0 * freedoms);
+  return freedoms * std::pow(1.0 - spread + sigmas * std::sqrt(spread), 3);
+}
+
+/// Balls may shift and turn as a whole, and no image shows it: one that is far off is found as a bit of it in each.
+class RigidFreedoms {
+ public:
+  explicit RigidFreedoms(const MarkerLayout& layout) {
+    for (const Eigen::Vector3d& ball : layout.all()) centre_ += ball / layout.count();
+    Matrix6d sum = Matrix6d::Zero();
+    for (const Eigen::Vector3d& ball : layout.all()) sum.noalias() += motion(ball).transpose() * motion(ball);
+    inverse_ = sum.completeOrthogonalDecomposition().pseudoInverse();  // balls in one line turn about it freely
+  }
+  /// Share of its standard deviation that a ball keeps once they have shifted and turned to the nearest, per axis.
+  Eigen::Vector3d left(const Eigen::Vector3d& ball) const {
+    const Eigen::Matrix3d taken = motion(ball) * inverse_ * motion(ball).transpose();
+    return (Eigen::Vector3d::Ones() - taken.diagonal()).cwiseMax(0.0).cwiseSqrt();
+  }
+
+ private:
+  Eigen::Matrix<double, 3, 6> motion(const Eigen::Vector3d& ball) const {
+    Eigen::Matrix<double, 3, 6> motion;
+    motion << Eigen::Matrix3d::Identity(), -hat(ball - centre_);
+    return motion;
+  }
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  Matrix6d inverse_;
+};
 
 }  // namespace
 
@@ -57,12 +90,15 @@ RigRefinement::RigRefinement(const std::vector<CameraModel>& cameras, const Mark
       store_(options.moments),
       solved_(static_cast<std::size_t>(options.moments)),
       bundle_(cameras, markers, options.moments),
+      asked_(cameras.size()),
       start_(cameras.size()),
       markers_(markers),
+      said_markers_(markers),
       flown_(static_cast<std::size_t>(options.moments)),
       jumps_(static_cast<std::size_t>(options.moments)),
       slice_(std::max(1, kSliceOfAll / static_cast<int>(cameras.size()))) {
   focal_scales_.fill(1.0);
+  said_scales_.fill(1.0);
 }
 
 void RigRefinement::see(CameraId camera, const NamedBalls& balls, const RigidTransform& world_from_body) {
@@ -84,6 +120,11 @@ void RigRefinement::forget(CameraId camera) {
   bundle_.stop();
 }
 
+void RigRefinement::startAfresh() {
+  maker_.forget();
+  store_.clear();
+}
+
 const char* RigRefinement::start(std::span<const Part> cameras) {
   HELICAL_CHECK(cameras.size() == cameras_);
   if (bundle_.running()) return "the cameras are being refined already";
@@ -93,7 +134,7 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
   bool held = false;
   int unknown = 0, used = 0;
   for (std::size_t c = 0; c < cameras_; ++c) {
-    BundleCamera& camera = start_[c];
+    BundleCamera& camera = asked_[c];
     camera = {};
     const auto seen = std::count_if(moments.begin(), moments.end(),
                                     [&](const RigMoment* moment) { return moment->views[c].seen.any(); });
@@ -112,6 +153,7 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
   const bool sees_balls = options_.self.any() && used >= kFewestCameras;
   if (!other_unknowns_ && !sees_balls) return "every camera's pose is given exactly, or it saw too little";
   correction_ = Correction::kNotSought;
+  start_ = asked_;
   solve(sees_balls ? options_.self : SelfCalibrationOptions{});
   return nullptr;
 }
@@ -119,7 +161,7 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
 void RigRefinement::solve(const SelfCalibrationOptions& self) {
   solved_count_ = 0;
   for (const RigMoment* moment : store_.frames()) solved_[solved_count_++] = *moment;
-  for (std::size_t i = 0; i < solved_count_; ++i) flown_[i] = solved_[i].world_from_body.translation;
+  for (std::size_t i = 0; i < solved_count_; ++i) flown_[i] = solved_[i].world_from_body;
   inflation_ =
       lastingInflation({solved_.data(), solved_count_}, options_.lasting_sigma_px, options_.lasting_time_s);
   RigBundleOptions options;
@@ -127,7 +169,9 @@ void RigRefinement::solve(const SelfCalibrationOptions& self) {
   options.marker_sigma_m = self.marker_sigma_m / std::sqrt(inflation_);
   options.focal_sigma = self.focal_sigma / std::sqrt(inflation_);
   correcting_ = self.any();
-  bundle_.expect(markers_);
+  bundle_.expect(self.marker_sigma_m > 0.0 ? said_markers_ : markers_);
+  for (std::size_t c = 0; c < cameras_; ++c)
+    start_[c].focal_scale = self.focal_sigma > 0.0 && !start_[c].focal_is_given ? said_scales_[c] : focal_scales_[c];
   bundle_.start({solved_.data(), solved_count_}, start_, options);
 }
 
@@ -144,6 +188,7 @@ bool RigRefinement::work() {
     return true;
   }
   if (other_unknowns_) {
+    start_ = asked_;
     solve({});
     return false;
   }
@@ -178,20 +223,40 @@ RigRefinement::Correction RigRefinement::judgeCorrection() {
     const BundleCamera& found = bundle_.cameras()[c];
     if (!found.used) continue;
     if (found.inliers < options_.good_inliers * found.balls) return Correction::kUnsound;
-    const double off = std::abs(found.focal_scale - start_[c].focal_scale);
-    if (off > options_.farthest_sigmas * options_.self.focal_sigma) return Correction::kUnsound;
   }
-  const double farthest_m = options_.farthest_sigmas * options_.self.marker_sigma_m;
-  for (int m = 0; m < markers_.count(); ++m) {
-    const Eigen::Vector3d off = bundle_.markers().inBody(markerId(m)) - markers_.inBody(markerId(m));
-    if (off.cwiseAbs().maxCoeff() > farthest_m) return Correction::kUnsound;
+  if (!isWithinPriors()) return Correction::kUnsound;
+  for (std::size_t i = 0; i < solved_count_; ++i)
+    jumps_[i] = (solved_[i].world_from_body.translation - flown_[i].translation).norm();
+  if (medianJump() > options_.farthest_m) return Correction::kTooFar;
+  for (std::size_t i = 0; i < solved_count_; ++i)
+    jumps_[i] = solved_[i].world_from_body.rotation.angularDistance(flown_[i].rotation);
+  return medianJump() <= options_.farthest_rad ? Correction::kFound : Correction::kTooFar;
+}
+
+bool RigRefinement::isWithinPriors() const {
+  double chi2 = 0.0;
+  const SelfCalibrationOptions& self = options_.self;
+  for (std::size_t c = 0; c < cameras_; ++c) {
+    const BundleCamera& found = bundle_.cameras()[c];
+    if (!found.used || start_[c].focal_is_given || !(self.focal_sigma > 0.0)) continue;
+    const double off = (found.focal_scale - said_scales_[c]) / self.focal_sigma;
+    if (std::abs(off) > options_.farthest_sigmas) return false;
+    chi2 += off * off;
   }
-  return medianJump() <= options_.farthest_m ? Correction::kFound : Correction::kUnsound;
+  if (self.marker_sigma_m > 0.0) {
+    const RigidFreedoms rigid(said_markers_);
+    for (int m = 0; m < markers_.count(); ++m) {
+      const Eigen::Vector3d& said = said_markers_.inBody(markerId(m));
+      const Eigen::Vector3d off = (bundle_.markers().inBody(markerId(m)) - said) / self.marker_sigma_m;
+      const Eigen::Vector3d allowed = options_.farthest_sigmas * rigid.left(said);
+      if ((off.cwiseAbs().array() > allowed.array()).any()) return false;
+      chi2 += off.squaredNorm();
+    }
+  }
+  return chi2 <= chi2Beyond(options_.farthest_sigmas, bundle_.freedoms());
 }
 
 double RigRefinement::medianJump() {
-  for (std::size_t i = 0; i < solved_count_; ++i)
-    jumps_[i] = (solved_[i].world_from_body.translation - flown_[i]).norm();
   const auto middle = jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_ / 2);
   std::nth_element(jumps_.begin(), middle, jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_));
   return *middle;

@@ -20,8 +20,10 @@ struct RigRefinementOptions {
   double good_inliers = 0.7;     ///< share of a camera's balls that must fit
   double good_median = 3.0;      ///< standard deviations that the median residual may have; 1.2 is expected
   SelfCalibrationOptions self;
-  double farthest_sigmas = 4.0;  ///< of the priors, that balls and focal lengths may be off
-  double farthest_m = 0.1;       ///< that the helicopter's place may jump by it, median
+  double farthest_sigmas = 4.0;  ///< of the priors, that balls and focal lengths may be off, each and all together
+  // That the helicopter's pose may jump by it, median: four of the standard deviations, 0.02 m and 0.01 rad, by which
+  // the filter that flies opens for it. Its gate is at 4.2: farther off images would be refused and not followed.
+  double farthest_m = 0.08, farthest_rad = 0.04;
   double lasting_sigma_px = 0.08, lasting_time_s = 1.0;  ///< see LastingOffsets
 };
 
@@ -34,10 +36,11 @@ void validate(const RigRefinementOptions& options);
 /// it. One thread; allocates at construction only.
 ///
 /// If the options say so, balls and focal lengths are solved for, too (RigBundle has how the gauge is held). They
-/// correct what is flown with only if they explain the images better than chance does, every camera fits, none is
-/// off farther than its prior allows, and the helicopter does not jump; otherwise all is solved for once more without
+/// correct what is flown with only if they explain the images better than chance does, every camera fits, they are
+/// off no farther than their priors allow, and the helicopter does not jump; otherwise all is solved for once more without
 /// them, and the answer is as if nobody had asked. A focal length that the images hardly tell stays as it is, and a
-/// learning camera that does not fit takes no part: that is found in runs of their own.
+/// learning camera that does not fit takes no part: that is found in runs of their own. The priors are about the rig's values however often it is done,
+/// and no image counts twice: nothing creeps.
 class RigRefinement {
  public:
   /// What is known of one camera when it starts.
@@ -55,6 +58,8 @@ class RigRefinement {
   void see(CameraId camera, const NamedBalls& balls, const RigidTransform& world_from_body);
   /// It was moved: what it saw before counts no more.
   void forget(CameraId camera);
+  /// What was seen so far is in what is flown with now.
+  void startAfresh();
 
   /// Null, or why it cannot be done: a literal.
   const char* start(std::span<const Part> cameras);
@@ -67,16 +72,18 @@ class RigRefinement {
     kFound,      ///< `markers` and `focalScale` are new, and the poses in its answers hold with these
     kNotNeeded,  ///< images are explained as well by what is flown with
     kUnsound,    ///< something else is wrong
+    kTooFar,     ///< the helicopter would jump
   };
   Correction correction() const { return correction_; }
   /// Whether it takes part in a run that goes on: what happens to it now spoils the run for all.
-  bool uses(CameraId camera) const { return running() && start_[static_cast<std::size_t>(camera.index())].used; }
+  bool uses(CameraId camera) const { return running() && asked_[static_cast<std::size_t>(camera.index())].used; }
   /// What is flown with.
   const MarkerLayout& markers() const { return markers_; }
   double focalScale(CameraId camera) const { return focal_scales_[static_cast<std::size_t>(camera.index())]; }
-  /// A camera's focal lengths are the model's times this, whatever was found.
+  /// A camera's focal lengths are the model's times this, whatever was found; priors are about it from here on.
   void setFocalScale(CameraId camera, double scale) {
-    focal_scales_[static_cast<std::size_t>(camera.index())] = scale;
+    const auto index = static_cast<std::size_t>(camera.index());
+    focal_scales_[index] = said_scales_[index] = scale;
   }
 
   /// One observation's share of the work. True when it ended just now.
@@ -94,7 +101,9 @@ class RigRefinement {
   /// Takes out of the run what it cannot tell. True if there was something.
   bool leaveOutWhatIsOpen();
   Correction judgeCorrection();
+  bool isWithinPriors() const;
   void takeCorrection();
+  /// Of `jumps_`, the first of them.
   double medianJump();
 
   RigRefinementOptions options_;
@@ -106,10 +115,11 @@ class RigRefinement {
   std::vector<RigMoment> solved_;  ///< what the bundle works on
   std::size_t solved_count_ = 0;
   RigBundle bundle_;
-  std::vector<BundleCamera> start_;
-  MarkerLayout markers_;
-  std::array<double, kMaxCameras> focal_scales_;
-  std::vector<Eigen::Vector3d> flown_;  ///< where the tracker had the helicopter at those moments
+  std::vector<BundleCamera> asked_;  ///< as it was started
+  std::vector<BundleCamera> start_;  ///< of this run
+  MarkerLayout markers_, said_markers_;  ///< flown with, and what the rig says
+  std::array<double, kMaxCameras> focal_scales_, said_scales_;
+  std::vector<RigidTransform> flown_;  ///< where the tracker had the helicopter at those moments
   std::vector<double> jumps_;           ///< scratch
   double inflation_ = 1.0;   ///< of variances, by offsets that last
   bool correcting_ = false;  ///< balls or focal lengths are unknowns of this run

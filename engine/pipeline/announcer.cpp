@@ -188,8 +188,11 @@ void Announcer::announceRefinement(const EngineSnapshot& now, const Sink& raise)
       return raise(event(now.time, Severity::kGood, "Refined: images ask for no other balls and focal lengths"));
     case RefinementOutcome::kUnsound:
       return raise(event(now.time, Severity::kCaution,
-                         "Refined cameras alone: no balls or focal lengths that marker_sigma_m and "
-                         "focal_sigma allow fit the images"));
+                         "Balls and focal lengths stay: none that marker_sigma_m and focal_sigma allow fit "
+                         "the images"));
+    case RefinementOutcome::kTooFar:
+      return raise(event(now.time, Severity::kCaution,
+                         "Balls and focal lengths stay: by those found the pose would jump too far to fly on"));
     case RefinementOutcome::kNoAnswer:
       return raise(event(now.time, Severity::kCaution, "Refinement without an answer: nothing is changed"));
     case RefinementOutcome::kOvertaken:

@@ -120,16 +120,14 @@ void ControlSet::setFocalScale(std::size_t camera, double scale) {
   correctFromRefinement();
 }
 
-/// All who look by balls and lenses, at once; the tracker when the loop asks.
+/// All who look by balls and lenses, at once; the tracker when the loop asks. What speaks for a knock stays: images
+/// are where they were.
 void ControlSet::correctFromRefinement() {
   markers_ = refinement_->markers();
   for (std::size_t i = 0; i < cameras_; ++i) {
     const CameraId id = cameraId(static_cast<int>(i));
     models_[i] = rig_models_[i].withFocalScale(focalScale(id));
     calibrations_[i]->correct(models_[i], markers_);
-    // Every camera's balls step in its image now, and none was knocked.
-    steps_.forget(id);
-    detectors_[i] = KnockDetector();
   }
   for (const auto& teacher : teachers_) teacher->correct(markers_, models_);
   fresh_correction_ = true;
@@ -150,6 +148,7 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
   const double reach_m = AdmissionOptions().reach_m;
   const RigRefinement::Correction correction = refinement_->correction();
   const bool corrects = correction == RigRefinement::Correction::kFound;
+  bool placed = corrects;
   if (corrects) {
     correctFromRefinement();
     corrected_ = true;
@@ -172,13 +171,18 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
       continue;
     }
     found_by_cold_start_[i] = false;
-    if (learning_[i] && calibrations_[i]->goOnFrom(found))
+    if (learning_[i] && calibrations_[i]->goOnFrom(found)) {
       estimates_[i] = calibrations_[i]->estimate();
-    else
+    } else {
+      placed = true;
       place(i, found);
+    }
     refined_[i] = true;
   }
-  if (!corrects && !refinement_->succeeded()) return endRefinement(RefinementOutcome::kNoAnswer);
+  if (placed) refinement_->startAfresh();
+  const bool refused = correction == RigRefinement::Correction::kUnsound ||
+                       correction == RigRefinement::Correction::kTooFar;
+  if (!corrects && !refused && !refinement_->succeeded()) return endRefinement(RefinementOutcome::kNoAnswer);
   switch (correction) {
     case RigRefinement::Correction::kNotSought:
       return endRefinement(RefinementOutcome::kCameras);
@@ -188,6 +192,8 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
       return endRefinement(RefinementOutcome::kKept);
     case RigRefinement::Correction::kUnsound:
       return endRefinement(RefinementOutcome::kUnsound);
+    case RigRefinement::Correction::kTooFar:
+      return endRefinement(RefinementOutcome::kTooFar);
   }
 }
 

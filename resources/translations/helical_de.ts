@@ -2480,8 +2480,12 @@ m/s</translation>
         <translation>Nachbestimmt: die Bilder verlangen keine anderen Kugeln und Brennweiten</translation>
     </message>
     <message>
-        <source>Refined cameras alone: no balls or focal lengths that marker_sigma_m and focal_sigma allow fit the images</source>
-        <translation>Nur Kameras nachbestimmt: keine Kugeln oder Brennweiten, die marker_sigma_m und focal_sigma zulassen, passen zu den Bildern</translation>
+        <source>Balls and focal lengths stay: none that marker_sigma_m and focal_sigma allow fit the images</source>
+        <translation>Kugeln und Brennweiten bleiben: keine, die marker_sigma_m und focal_sigma zulassen, passen zu den Bildern</translation>
+    </message>
+    <message>
+        <source>Balls and focal lengths stay: by those found the pose would jump too far to fly on</source>
+        <translation>Kugeln und Brennweiten bleiben: mit den gefundenen spränge die Lage zu weit zum Weiterfliegen</translation>
     </message>
     <message>
         <source>Refinement without an answer: nothing is changed</source>

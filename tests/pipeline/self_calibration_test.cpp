@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -184,6 +185,30 @@ TEST(SelfCalibration, BallsThatAreFartherOffThanTheyMayBeStayAndItIsSaid) {
   const SelfCalibratedFlight refined(rig, true);
   EXPECT_EQ(refined.now.refinement.outcome, RefinementOutcome::kUnsound);
   EXPECT_TRUE(std::ranges::equal(refined.now.markers.all(), rig.markers_in_body.all()));
+}
+
+/// The camera jumps some frames before the balls are corrected.
+TEST(SelfCalibration, WhatSpeaksForAKnockOutlivesACorrection) {
+  RigConfig rig = test::shippedRig("calibrated", 1);
+  rig.self_calibration.marker_sigma_m = rig.simulation.marker_error_m = 1e-3;
+  int tick = 0, corrected_at = 0;
+  const SelfCalibratedFlight quiet(rig, true, "hover", [&](LockStep&, const EngineSnapshot& now) {
+    ++tick;
+    if (corrected_at == 0 && now.refinement.ended > 0) corrected_at = tick;
+  });
+  ASSERT_EQ(quiet.now.refinement.outcome, RefinementOutcome::kCorrected);
+  rig.simulation.bumps = {{cameraId(1), (corrected_at - 4.0) / kTicksPerSecond, toRadians(1.0), 0.01}};
+  std::array<int, 2> found_at{};
+  for (const bool refines : {false, true}) {
+    tick = 0;
+    const SelfCalibratedFlight knocked(rig, refines, "hover", [&](LockStep&, const EngineSnapshot& now) {
+      ++tick;
+      if (found_at[refines] == 0 && now.cameras[1].knocks_found > 0) found_at[refines] = tick;
+    });
+  }
+  std::printf("corrected at tick %d; knock found at %d, without that at %d\n", corrected_at, found_at[1], found_at[0]);
+  EXPECT_GE(found_at[1], corrected_at);
+  EXPECT_LE(found_at[1], found_at[0] + 1);
 }
 
 struct TimedOrder {

@@ -274,11 +274,31 @@ void JointSearch::improve(Hypothesis& hypothesis) {
   hypothesis.settled = hypothesis.settled || iterations >= kIterations || hopeless(hypothesis);
 }
 
+/// Far away, or it would see the balls through the landing pad: mirrored at the balls' plane a camera fits nearly as
+/// well while the helicopter stands or hardly flies. The pad reaches as far as the balls of a helicopter on it.
+bool JointSearch::isImpossible(const RigidTransform& camera_from_world) const {
+  const Eigen::Vector3d eye = camera_from_world.inverseTranslation();
+  if (!camera_from_world.translation.allFinite() || eye.norm() > kFarthestM) return true;
+  if (eye.z() >= 0.0) return false;
+  double pad = 0.0;
+  for (const Eigen::Vector3d& ball : markers_.all()) pad = std::max(pad, ball.head<2>().norm());
+  for (const UnnamedFrame* frame : store_.frames())
+    for (const Eigen::Vector3d& in_body : markers_.all()) {
+      const Eigen::Vector3d ball = frame->world_from_body * in_body;
+      if (ball.z() <= 0.0) continue;
+      const Eigen::Vector3d through = ball + ball.z() / (ball.z() - eye.z()) * (eye - ball);
+      if (through.head<2>().norm() < pad) return true;
+    }
+  return false;
+}
+
 void JointSearch::prune() {
   const auto end = hypotheses_.begin() + in_round_count_;
   std::sort(hypotheses_.begin(), end,
             [](const Hypothesis& a, const Hypothesis& b) { return a.rank_cost < b.rank_cost; });
-  const Hypothesis& best = hypotheses_[0];
+  const auto impossible = [this](const Hypothesis& each) { return isImpossible(each.camera_from_world); };
+  const auto first = std::find_if_not(hypotheses_.begin(), end, impossible);
+  const Hypothesis& best = first != end ? *first : hypotheses_[0];
   // Where even the best fits badly, sigma is too small: the gap grows with it. And then the balls are not where
   // they are said to be: such errors do not average out, and for frames that look alike a wrong name or a camera
   // mirrored at the balls' plane may fit better by chance. So much more is asked for, which motion brings.
@@ -289,10 +309,8 @@ void JointSearch::prune() {
   int kept = 0;
   for (int i = 0; i < in_round_count_; ++i) {
     const Hypothesis& each = hypotheses_[static_cast<std::size_t>(i)];
-    if (!each.camera_from_world.translation.allFinite() ||
-        each.camera_from_world.inverseTranslation().norm() > kFarthestM)
-      continue;
-    if (i > 0 && enough && each.rank_cost - best.rank_cost > gap) break;
+    if (impossible(each)) continue;
+    if (&each != &best && enough && each.rank_cost - best.rank_cost > gap) break;
     const bool twin = std::any_of(
         hypotheses_.begin(), hypotheses_.begin() + kept,
         [&](const Hypothesis& other) { return sameMode(other.camera_from_world, each.camera_from_world); });

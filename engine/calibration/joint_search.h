@@ -24,7 +24,8 @@ void validate(const JointSearchOptions& options);
 /// planar poses of single frames, each refined over frames spread over the helicopter's motion by robust
 /// Levenberg-Marquardt that names the centroids anew in each iteration. The worse ones are given up; the last
 /// one left is the answer. Labellings that motion or an asymmetric layout have not yet told apart stay, so
-/// that a symmetric helicopter at rest decides nothing.
+/// that a symmetric helicopter at rest decides nothing. A camera that would see balls through the landing
+/// pad, the world's origin, is none.
 ///
 /// Refined by its own few lines and not by Ceres: it must stop after each iteration to keep to its share of a
 /// camera frame, and must not allocate; and for 24 frames of four balls Ceres takes 170 us where
@@ -89,6 +90,7 @@ class JointSearch {
   bool hopeless(const Hypothesis& hypothesis) const;
   void improve(Hypothesis& hypothesis);
   Hypothesis evaluate(const RigidTransform& pose, const Matrix6d& covariance, double scale) const;
+  bool isImpossible(const RigidTransform& camera_from_world) const;
   void prune();
   bool wantsSeeds() const;
   bool canSeed(int centroids);

@@ -16,7 +16,7 @@
 namespace helical {
 namespace {
 
-constexpr int kPlaces = 6;  ///< each with a direction of its own
+constexpr int kSmearedBalls = 6;  ///< each with a direction of its own
 constexpr int kPictures = 4;
 
 struct Smear {
@@ -39,7 +39,7 @@ struct BothErrors {
 };
 
 void addError(double error, double variance, SmearErrors& errors) {
-  constexpr double kShare = 1.0 / (kPlaces * kPictures);
+  constexpr double kShare = 1.0 / (kSmearedBalls * kPictures);
   const double nees = error * error / variance;
   errors.rms += kShare * error * error;
   errors.sigma += kShare * variance;
@@ -52,8 +52,8 @@ BothErrors measureSmears(const Smear& smear) {
   Extractor extractor{MarkerOptions()};
   extractor.disableBackground();
   BothErrors errors;
-  for (int place = 0; place < kPlaces; ++place) {
-    const double angle = kPi * (place + random.uniform(0.0, 1.0)) / kPlaces;
+  for (int place = 0; place < kSmearedBalls; ++place) {
+    const double angle = kPi * (place + random.uniform(0.0, 1.0)) / kSmearedBalls;
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
     test::BallPicture ball;
     ball.radius = smear.radius;

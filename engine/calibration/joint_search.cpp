@@ -274,21 +274,25 @@ void JointSearch::improve(Hypothesis& hypothesis) {
   hypothesis.settled = hypothesis.settled || iterations >= kIterations || hopeless(hypothesis);
 }
 
-/// Far away, or it would see the balls through the landing pad: mirrored at the balls' plane a camera fits nearly as
-/// well while the helicopter stands or hardly flies. The pad reaches as far as the balls of a helicopter on it.
+/// Far away, or it would see the balls through the landing pad: mirrored at the balls' plane a camera fits
+/// nearly as well while the helicopter stands or hardly flies. The pad reaches as far as the balls of a
+/// helicopter on it; it may hide balls from a camera below it, so that only frames which show all of them
+/// speak against one.
 bool JointSearch::isImpossible(const RigidTransform& camera_from_world) const {
   const Eigen::Vector3d eye = camera_from_world.inverseTranslation();
   if (!camera_from_world.translation.allFinite() || eye.norm() > kFarthestM) return true;
   if (eye.z() >= 0.0) return false;
   double pad = 0.0;
   for (const Eigen::Vector3d& ball : markers_.all()) pad = std::max(pad, ball.head<2>().norm());
-  for (const UnnamedFrame* frame : store_.frames())
+  for (const UnnamedFrame* frame : store_.frames()) {
+    if (frame->observation.count < markers_.count()) continue;
     for (const Eigen::Vector3d& in_body : markers_.all()) {
       const Eigen::Vector3d ball = frame->world_from_body * in_body;
       if (ball.z() <= 0.0) continue;
       const Eigen::Vector3d through = ball + ball.z() / (ball.z() - eye.z()) * (eye - ball);
       if (through.head<2>().norm() < pad) return true;
     }
+  }
   return false;
 }
 
@@ -298,10 +302,12 @@ void JointSearch::prune() {
             [](const Hypothesis& a, const Hypothesis& b) { return a.rank_cost < b.rank_cost; });
   const auto impossible = [this](const Hypothesis& each) { return isImpossible(each.camera_from_world); };
   const auto first = std::find_if_not(hypotheses_.begin(), end, impossible);
-  const Hypothesis& best = first != end ? *first : hypotheses_[0];
-  // Where even the best fits badly, sigma is too small: the gap grows with it. And then the balls are not where
-  // they are said to be: such errors do not average out, and for frames that look alike a wrong name or a camera
-  // mirrored at the balls' plane may fit better by chance. So much more is asked for, which motion brings.
+  const auto best_at = static_cast<int>(first != end ? first - hypotheses_.begin() : 0);
+  const Hypothesis best = hypotheses_[static_cast<std::size_t>(best_at)];  // they move up below
+  // Where even the best fits badly, sigma is too small: the gap grows with it. And then the balls are not
+  // where they are said to be: such errors do not average out, and for frames that look alike a wrong name or
+  // a camera mirrored at the balls' plane may fit better by chance. So much more is asked for, which motion
+  // brings.
   const double variance = std::max(1.0, best.median_sigmas * best.median_sigmas / kMedianSquared);
   const double lasting = kLastingGap * std::max(0.0, variance - kNoiseAlone);
   const double gap = options_.prune_chi2 * variance * (1.0 + lasting);
@@ -310,7 +316,7 @@ void JointSearch::prune() {
   for (int i = 0; i < in_round_count_; ++i) {
     const Hypothesis& each = hypotheses_[static_cast<std::size_t>(i)];
     if (impossible(each)) continue;
-    if (&each != &best && enough && each.rank_cost - best.rank_cost > gap) break;
+    if (i != best_at && enough && each.rank_cost - best.rank_cost > gap) break;
     const bool twin = std::any_of(
         hypotheses_.begin(), hypotheses_.begin() + kept,
         [&](const Hypothesis& other) { return sameMode(other.camera_from_world, each.camera_from_world); });

@@ -29,19 +29,24 @@ double chi2Beyond(double sigmas, double freedoms) {
   return freedoms * std::pow(1.0 - spread + sigmas * std::sqrt(spread), 3);
 }
 
-/// Balls may shift and turn as a whole, and no image shows it: one that is far off is found as a bit of it in each.
+/// Balls may shift and turn as a whole, and no image shows it: one that is far off is found as a bit of it in
+/// each. Of three balls nothing is left across their plane, where the solution ends some hundredths beside
+/// the prior.
+constexpr double kLeastLeft = 0.1;
 class RigidFreedoms {
  public:
   explicit RigidFreedoms(const MarkerLayout& layout) {
     for (const Eigen::Vector3d& ball : layout.all()) centre_ += ball / layout.count();
     Matrix6d sum = Matrix6d::Zero();
     for (const Eigen::Vector3d& ball : layout.all()) sum.noalias() += motion(ball).transpose() * motion(ball);
-    inverse_ = sum.completeOrthogonalDecomposition().pseudoInverse();  // balls in one line turn about it freely
+    inverse_ =
+        sum.completeOrthogonalDecomposition().pseudoInverse();  // balls in one line turn about it freely
   }
-  /// Share of its standard deviation that a ball keeps once they have shifted and turned to the nearest, per axis.
+  /// Share of its standard deviation that a ball keeps once they have shifted and turned to the nearest, per
+  /// axis.
   Eigen::Vector3d left(const Eigen::Vector3d& ball) const {
     const Eigen::Matrix3d taken = motion(ball) * inverse_ * motion(ball).transpose();
-    return (Eigen::Vector3d::Ones() - taken.diagonal()).cwiseMax(0.0).cwiseSqrt();
+    return (Eigen::Vector3d::Ones() - taken.diagonal()).cwiseMax(kLeastLeft * kLeastLeft).cwiseSqrt();
   }
 
  private:
@@ -70,7 +75,8 @@ void validate(const RigRefinementOptions& options) {
   validate(options.self);
   const auto require = [](bool good, const char* key, double value, const char* cure) {
     if (!good)
-      throw Error(ErrorKind::kInput, std::string(key) + " of a refinement is " + std::to_string(value), {}, cure);
+      throw Error(ErrorKind::kInput, std::string(key) + " of a refinement is " + std::to_string(value), {},
+                  cure);
   };
   require(options.spacing_s > 0.0 && options.spacing_s <= 60.0, "spacing_s", options.spacing_s,
           "give a time above 0, at most 60 s");
@@ -165,13 +171,15 @@ void RigRefinement::solve(const SelfCalibrationOptions& self) {
   inflation_ =
       lastingInflation({solved_.data(), solved_count_}, options_.lasting_sigma_px, options_.lasting_time_s);
   RigBundleOptions options;
-  // The bundle takes pixels for as sure as they are noisy, and they are less: priors weigh as much against them.
+  // The bundle takes pixels for as sure as they are noisy, and they are less: priors weigh as much against
+  // them.
   options.marker_sigma_m = self.marker_sigma_m / std::sqrt(inflation_);
   options.focal_sigma = self.focal_sigma / std::sqrt(inflation_);
   correcting_ = self.any();
   bundle_.expect(self.marker_sigma_m > 0.0 ? said_markers_ : markers_);
   for (std::size_t c = 0; c < cameras_; ++c)
-    start_[c].focal_scale = self.focal_sigma > 0.0 && !start_[c].focal_is_given ? said_scales_[c] : focal_scales_[c];
+    start_[c].focal_scale =
+        self.focal_sigma > 0.0 && !start_[c].focal_is_given ? said_scales_[c] : focal_scales_[c];
   bundle_.start({solved_.data(), solved_count_}, start_, options);
 }
 
@@ -198,7 +206,8 @@ bool RigRefinement::work() {
 
 bool RigRefinement::leaveOutWhatIsOpen() {
   bool left_out = false;
-  auto used = std::count_if(start_.begin(), start_.end(), [](const BundleCamera& camera) { return camera.used; });
+  auto used =
+      std::count_if(start_.begin(), start_.end(), [](const BundleCamera& camera) { return camera.used; });
   for (std::size_t c = 0; c < cameras_; ++c) {
     BundleCamera& camera = start_[c];
     if (!camera.used) continue;

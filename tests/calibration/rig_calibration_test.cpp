@@ -625,6 +625,24 @@ TEST(RigCalibration, ALightOnALineIsNoCalibration) {
   }
 }
 
+TEST(RigCalibration, ALightThatRestedBeforeItWasWavedIsNoLine) {
+  RecordingOptions recording;
+  recording.cameras = 3;
+  recording.duration_s = 30.0;
+  recording.outliers = 0.0;
+  MadeRecording made = wavedLight(recording, 50);
+  std::map<std::int32_t, Eigen::Vector2d> at_rest;
+  Random random(51);
+  for (PointRow& row : made.rows.rows) {
+    if (row.time_s > 0.6 * recording.duration_s) continue;
+    const Eigen::Vector2d first = at_rest.try_emplace(row.camera, row.pixel).first->second;
+    row.pixel = first + 0.2 * Eigen::Vector2d(random.normal(), random.normal());
+  }
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  EXPECT_EQ(reasonsOf(solved).find("along a line"), std::string::npos) << reasonsOf(solved);
+  EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
+}
+
 /// Two cameras of which each has two fifths of its centroids false agree in a third of all.
 TEST(RigCalibration, ManyFalseCentroidsDoNotSpoilAPair) {
   RecordingOptions recording;

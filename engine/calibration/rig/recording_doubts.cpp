@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/calibration/rig/quantile.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kLineSigmas = 8.0;    // of a pixel: what keeps within them of a line does not leave it
 constexpr double kLeastSigmaPx = 0.3;  // a wrong solution may fit its few inliers better than noise does
 constexpr double kMedianToSigma = 1.4826;
+constexpr double kRestSigmas = 6.0;  // of a pixel
 constexpr double kFarMedians = 3.0;  // beyond them a pixel is no part of the line, but a false one
 constexpr int kLineRounds = 10;
 constexpr std::size_t kFewestOfALine = 10;
@@ -21,8 +23,10 @@ constexpr std::size_t kFewestOfAPart = 30;  // sightings on each side of a move
 constexpr double kMostlyRejected = 0.75, kOtherRejectedLess = 0.4;
 constexpr double kSurelyMoved = 30.0;  // log-likelihood
 
-/// How far most pixels of one camera keep from the straight line that fits them best [px].
+/// How far most pixels of one camera keep from the straight line that fits them best [px]; infinite if most
+/// do not.
 double widthOfWay(std::vector<Eigen::Vector2d> pixels) {
+  const std::size_t all = pixels.size();
   double width = 0.0;
   for (int round = 0; round < kLineRounds; ++round) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
@@ -37,7 +41,7 @@ double widthOfWay(std::vector<Eigen::Vector2d> pixels) {
     width = kMedianToSigma * median;
     std::erase_if(pixels,
                   [&](const auto& p) { return std::abs(across.dot(p - mean)) > kFarMedians * median; });
-    if (pixels.size() < kFewestOfALine) break;
+    if (2 * pixels.size() < all) return std::numeric_limits<double>::infinity();
   }
   return width;
 }
@@ -89,8 +93,12 @@ bool sawOnlyALine(const RigSolution& s) {
   std::vector<std::vector<Eigen::Vector2d>> pixels(s.cameras.size());
   for (const Sighting& k : s.table.sightings) {
     const CameraModel& model = s.cameras[static_cast<std::size_t>(k.camera)].model;
-    pixels[static_cast<std::size_t>(k.camera)].emplace_back(model.fx() * k.bearing.x(),
-                                                            model.fy() * k.bearing.y());
+    auto& of_camera = pixels[static_cast<std::size_t>(k.camera)];
+    const Eigen::Vector2d pixel(model.fx() * k.bearing.x(), model.fy() * k.bearing.y());
+    // A target that rests is one place, however long.
+    if (of_camera.empty() ||
+        (pixel - of_camera.back()).norm() > kRestSigmas * std::max(kLeastSigmaPx, s.sigma_px))
+      of_camera.push_back(pixel);
   }
   std::erase_if(pixels, [](const auto& of_camera) { return of_camera.size() < kFewestOfALine; });
   return !pixels.empty() && std::all_of(pixels.begin(), pixels.end(), [&](const auto& of_camera) {

@@ -238,7 +238,7 @@ void mendStamps(RigSolution& s, PointRows rows, const std::string& file, const R
   RigSolution mended = solveTables(bringTogether(rows, cameras, file), cameras, options, progress);
   const std::vector<bool> still = misfits(mended);
   if (std::count(still.begin(), still.end(), true) >= std::count(misfit.begin(), misfit.end(), true) ||
-      inliersOf(mended) * s.table.thinned_by < inliersOf(s) * mended.table.thinned_by)
+      inliersOf(mended) * mended.table.thinned_by < inliersOf(s) * s.table.thinned_by)
     return;
   s = std::move(mended);
   s.stamps_late_s = late_s;

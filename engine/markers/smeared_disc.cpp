@@ -9,7 +9,7 @@
 namespace helical {
 namespace {
 
-/// Moments are a cell apart at most, so that a cell's outline, as wide as that, hides their steps.
+/// Moments are about a cell apart, two on the longest ways, so that a cell's outline, as wide as that, hides their steps.
 constexpr int kFewestMoments = 3, kMostMoments = 48;
 constexpr double kLonger = 1.2;  ///< than at the start, a way may become
 

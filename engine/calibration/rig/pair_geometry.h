@@ -15,10 +15,11 @@ struct PairGeometry {
   double parallax_deg = 0.0;  ///< median over the inliers
 };
 
+constexpr int kPairSamples = 5000;
+
 /// Five-point essential matrix (Nister 2004) by random samples, and the pose among its four that puts points
 /// before both cameras. `tolerance` is of bearings. Nothing from fewer than 12 points, or inliers. Repeats
 /// bit for bit.
-constexpr int kPairSamples = 5000;
 std::optional<PairGeometry> relatePair(std::span<const Eigen::Vector2d> bearings_a,
                                        std::span<const Eigen::Vector2d> bearings_b, double tolerance,
                                        int samples = kPairSamples);

@@ -297,13 +297,12 @@ bool JointSearch::isImpossible(const RigidTransform& camera_from_world) const {
 }
 
 void JointSearch::prune() {
-  const auto end = hypotheses_.begin() + in_round_count_;
+  const auto end =
+      std::remove_if(hypotheses_.begin(), hypotheses_.begin() + in_round_count_,
+                     [this](const Hypothesis& each) { return isImpossible(each.camera_from_world); });
   std::sort(hypotheses_.begin(), end,
             [](const Hypothesis& a, const Hypothesis& b) { return a.rank_cost < b.rank_cost; });
-  const auto impossible = [this](const Hypothesis& each) { return isImpossible(each.camera_from_world); };
-  const auto first = std::find_if_not(hypotheses_.begin(), end, impossible);
-  const auto best_at = static_cast<int>(first != end ? first - hypotheses_.begin() : 0);
-  const Hypothesis best = hypotheses_[static_cast<std::size_t>(best_at)];  // they move up below
+  const Hypothesis& best = hypotheses_[0];
   // Where even the best fits badly, sigma is too small: the gap grows with it. And then the balls are not
   // where they are said to be: such errors do not average out, and for frames that look alike a wrong name or
   // a camera mirrored at the balls' plane may fit better by chance. So much more is asked for, which motion
@@ -312,11 +311,11 @@ void JointSearch::prune() {
   const double lasting = kLastingGap * std::max(0.0, variance - kNoiseAlone);
   const double gap = options_.prune_chi2 * variance * (1.0 + lasting);
   const bool enough = static_cast<int>(store_.frames().size()) >= options_.prune_frames;
+  const auto possible = static_cast<int>(end - hypotheses_.begin());
   int kept = 0;
-  for (int i = 0; i < in_round_count_; ++i) {
+  for (int i = 0; i < possible; ++i) {
     const Hypothesis& each = hypotheses_[static_cast<std::size_t>(i)];
-    if (impossible(each)) continue;
-    if (i != best_at && enough && each.rank_cost - best.rank_cost > gap) break;
+    if (i > 0 && enough && each.rank_cost - best.rank_cost > gap) break;
     const bool twin = std::any_of(
         hypotheses_.begin(), hypotheses_.begin() + kept,
         [&](const Hypothesis& other) { return sameMode(other.camera_from_world, each.camera_from_world); });

@@ -29,10 +29,11 @@ double chi2Beyond(double sigmas, double freedoms) {
   return freedoms * std::pow(1.0 - spread + sigmas * std::sqrt(spread), 3);
 }
 
-/// Balls may shift and turn as a whole, and no image shows it: one that is far off is found as a bit of it in
-/// each. Of three balls nothing is left across their plane, where the solution ends some hundredths beside
-/// the prior.
+/// Of three balls nothing is left across their plane, where the solution ends some hundredths beside the prior.
 constexpr double kLeastLeft = 0.1;
+
+/// Balls may shift and turn as a whole, and no image shows it: one that is far off is found as a bit of it in
+/// each.
 class RigidFreedoms {
  public:
   explicit RigidFreedoms(const MarkerLayout& layout) {

@@ -13,16 +13,18 @@
 namespace helical {
 
 struct RigRefinementOptions {
-  double spacing_s = 0.1;        ///< between the moments that are kept, at least
-  int moments = 256;             ///< kept; the most redundant makes room
-  int fewest_moments = 24;       ///< before anything is solved
-  int fewest_of_camera = 12;     ///< moments in which a camera must have seen the helicopter
-  double good_inliers = 0.7;     ///< share of a camera's balls that must fit
-  double good_median = 3.0;      ///< standard deviations that the median residual may have; 1.2 is expected
+  double spacing_s = 0.1;     ///< between the moments that are kept, at least
+  int moments = 256;          ///< kept; the most redundant makes room
+  int fewest_moments = 24;    ///< before anything is solved
+  int fewest_of_camera = 12;  ///< moments in which a camera must have seen the helicopter
+  double good_inliers = 0.7;  ///< share of a camera's balls that must fit
+  double good_median = 3.0;   ///< standard deviations that the median residual may have; 1.2 is expected
   SelfCalibrationOptions self;
-  double farthest_sigmas = 4.0;  ///< of the priors, that balls and focal lengths may be off, each and all together
-  // That the helicopter's pose may jump by it, median: four of the standard deviations, 0.02 m and 0.01 rad, by which
-  // the filter that flies opens for it. Its gate is at 4.2: farther off images would be refused and not followed.
+  double farthest_sigmas =
+      4.0;  ///< of the priors, that balls and focal lengths may be off, each and all together
+  // That the helicopter's pose may jump by it, median: four of the standard deviations, 0.02 m and 0.01 rad,
+  // by which the filter that flies opens for it. Its gate is at 4.2: farther off images would be refused and
+  // not followed.
   double farthest_m = 0.08, farthest_rad = 0.04;
   double lasting_sigma_px = 0.08, lasting_time_s = 1.0;  ///< see LastingOffsets
 };
@@ -30,24 +32,25 @@ struct RigRefinementOptions {
 /// Throws Error(kInput) naming the offending key.
 void validate(const RigRefinementOptions& options);
 
-/// All cameras of a rig solved for together, on demand, from what they saw of the helicopter in this flight: each
-/// learns for itself otherwise, which is quick and loses a tenth of what the frames hold. Looks on all the time and
-/// keeps moments spread over the helicopter's poses; solves in slices of bounded work, so that no image waits for
-/// it. One thread; allocates at construction only.
+/// All cameras of a rig solved for together, on demand, from what they saw of the helicopter in this flight:
+/// each learns for itself otherwise, which is quick and loses a tenth of what the frames hold. Looks on all
+/// the time and keeps moments spread over the helicopter's poses; solves in slices of bounded work, so that
+/// no image waits for it. One thread; allocates at construction only.
 ///
-/// If the options say so, balls and focal lengths are solved for, too (RigBundle has how the gauge is held). They
-/// correct what is flown with only if they explain the images better than chance does, every camera fits, they are
-/// off no farther than their priors allow, and the helicopter does not jump; otherwise all is solved for once more without
-/// them, and the answer is as if nobody had asked. A focal length that the images hardly tell stays as it is, and a
-/// learning camera that does not fit takes no part: that is found in runs of their own. The priors are about the rig's values however often it is done,
-/// and no image counts twice: nothing creeps.
+/// If the options say so, balls and focal lengths are solved for, too (RigBundle has how the gauge is held).
+/// They correct what is flown with only if they explain the images better than chance does, every camera
+/// fits, they are off no farther than their priors allow, and the helicopter does not jump; otherwise all is
+/// solved for once more without them, and the answer is as if nobody had asked. A focal length that the
+/// images hardly tell stays as it is, and a learning camera that does not fit takes no part: that is found in
+/// runs of their own. The priors are about the rig's values however often it is done, and no image counts
+/// twice: nothing creeps.
 class RigRefinement {
  public:
   /// What is known of one camera when it starts.
   struct Part {
     CameraEstimate estimate;
     bool used = false;
-    bool holds = false;  ///< its pose is known up to its covariance, and with it the world
+    bool holds = false;   ///< its pose is known up to its covariance, and with it the world
     bool frozen = false;  ///< nothing will be learnt about it: its focal length stays
   };
 
@@ -76,11 +79,14 @@ class RigRefinement {
   };
   Correction correction() const { return correction_; }
   /// Whether it takes part in a run that goes on: what happens to it now spoils the run for all.
-  bool uses(CameraId camera) const { return running() && asked_[static_cast<std::size_t>(camera.index())].used; }
+  bool uses(CameraId camera) const {
+    return running() && asked_[static_cast<std::size_t>(camera.index())].used;
+  }
   /// What is flown with.
   const MarkerLayout& markers() const { return markers_; }
   double focalScale(CameraId camera) const { return focal_scales_[static_cast<std::size_t>(camera.index())]; }
-  /// A camera's focal lengths are the model's times this, whatever was found; priors are about it from here on.
+  /// A camera's focal lengths are the model's times this, whatever was found; priors are about it from here
+  /// on.
   void setFocalScale(CameraId camera, double scale) {
     const auto index = static_cast<std::size_t>(camera.index());
     focal_scales_[index] = said_scales_[index] = scale;
@@ -91,8 +97,8 @@ class RigRefinement {
 
   /// Of a run that ended: whether it has an answer.
   bool succeeded() const;
-  /// Of a run that ended: where it found this camera. Status kCalibrated; kUncalibrated for one that it could not
-  /// find, or that held the world exactly.
+  /// Of a run that ended: where it found this camera. Status kCalibrated; kUncalibrated for one that it could
+  /// not find, or that held the world exactly.
   CameraEstimate answer(CameraId camera) const;
 
  private:
@@ -115,14 +121,14 @@ class RigRefinement {
   std::vector<RigMoment> solved_;  ///< what the bundle works on
   std::size_t solved_count_ = 0;
   RigBundle bundle_;
-  std::vector<BundleCamera> asked_;  ///< as it was started
-  std::vector<BundleCamera> start_;  ///< of this run
+  std::vector<BundleCamera> asked_;      ///< as it was started
+  std::vector<BundleCamera> start_;      ///< of this run
   MarkerLayout markers_, said_markers_;  ///< flown with, and what the rig says
   std::array<double, kMaxCameras> focal_scales_, said_scales_;
   std::vector<RigidTransform> flown_;  ///< where the tracker had the helicopter at those moments
-  std::vector<double> jumps_;           ///< scratch
-  double inflation_ = 1.0;   ///< of variances, by offsets that last
-  bool correcting_ = false;  ///< balls or focal lengths are unknowns of this run
+  std::vector<double> jumps_;          ///< scratch
+  double inflation_ = 1.0;             ///< of variances, by offsets that last
+  bool correcting_ = false;            ///< balls or focal lengths are unknowns of this run
   Correction correction_ = Correction::kNotSought;
   bool other_unknowns_ = false;  ///< than balls and focal lengths
   int slice_;

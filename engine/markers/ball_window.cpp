@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/rotation.h"
 #include "engine/markers/disc_normal.h"
 
 namespace helical {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMargin = 3;             ///< cells around the region's box
 constexpr double kReach = 2.5;         ///< cells outside of the region's box that are fitted, too
 constexpr double kLeastChroma = 12.0;  ///< levels: below, a ball is told by its brightness

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/geometry/rotation.h"
 #include "engine/markers/cut_disc.h"
 #include "engine/markers/disc_normal.h"
 
 namespace helical {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLeastContrast = 8.0;
 constexpr int kSteps = 6;
 constexpr int kRounds = 3;

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/rotation.h"
+
 namespace helical {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Of fitted discs in rendered flights, with balls of 2.5 to 6.5 px: what the fit makes of its residuals is
 // too little, more so where something hides a part; and the sampling of the outline, on as many cells as the
 // radius and the ball's way are long, is in no residual. Squared errors over these covariances are 0.9

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/markers/ball_window.h"
 #include "engine/markers/cut_disc.h"
+#include "engine/markers/disc_descent.h"
 #include "engine/markers/disc_normal.h"
 
 namespace helical {
@@ -85,9 +87,7 @@ double SmearFit::noiseAround() {
   for (std::size_t i = 0; i < real_count_; ++i)
     if (cells_->cover[i] == 0.0F) sorted_[count++] = std::abs(cells_->residual[i]);
   if (count == 0) return double{kLeastScale};
-  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(double{kLeastScale}, 1.4826 * static_cast<double>(*middle));
+  return std::max(double{kLeastScale}, 1.4826 * static_cast<double>(medianOf({sorted_.data(), count})));
 }
 
 double SmearFit::squaresAtRest(const std::array<float, kDiscParameters>& disc) {
@@ -118,7 +118,7 @@ std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vect
     }
   }
   smeared.descend(cells, kFirstSteps);
-  smeared.measure(cells);
+  smeared.evaluate(cells);
   const double variance = std::pow(noiseAround(), 2);
   if (smeared.squares + kSoonGained * variance > squares_at_rest ||
       smeared.squares / variance - smeared.count > most_excess + kStillToFall * smeared.count)
@@ -143,7 +143,7 @@ std::optional<SmearedBall> SmearFit::ballOf(const SmearedDisc& smeared, const Sm
   ball.misfit = variance / (ball.noise * ball.noise);
   ball.excess = sums.squares / (ball.noise * ball.noise) - sums.count;
   ball.gain = (squares_at_rest - sums.squares) / std::max(variance, kLeastVariance);
-  ball.covariance = smeared.covariance(cells, kLeastVariance);
+  ball.covariance = centreCovariance(smeared, sums, kLeastVariance);
   for (std::size_t i = 0; i < real_count_; ++i) ball.seen += cells.cover[i];
   const bool is_plausible = ball.half.norm() < kMostHalf * ball.radius &&
                             ball.radius > kSmaller * start.radius &&

@@ -9,7 +9,8 @@
 namespace helical {
 namespace {
 
-/// Moments are about a cell apart, two on the longest ways, so that a cell's outline, as wide as that, hides their steps.
+/// Moments are about a cell apart, two on the longest ways, so that a cell's outline, as wide as that, hides
+/// their steps.
 constexpr int kFewestMoments = 3, kMostMoments = 48;
 constexpr double kLonger = 1.2;  ///< than at the start, a way may become
 
@@ -26,8 +27,12 @@ void SmearedDisc::descend(DiscCells& cells, int steps) {
   descendTo(*this, cells, steps);
 }
 
-DiscSums SmearedDisc::measure(DiscCells& cells) const {
+void SmearedDisc::evaluate(DiscCells& cells) const {
   smearDisc(disc, hasShadow(disc), motion, cells);
+}
+
+DiscSums SmearedDisc::measure(DiscCells& cells) const {
+  evaluate(cells);
   DiscSums sums;
   sumSmearedDisc(cells, sums);
   return sums;
@@ -40,12 +45,6 @@ SmearedDisc SmearedDisc::moved(const Eigen::Matrix<double, kSize, 1>& change) co
   to.motion.half_x += static_cast<float>(change[kSmearHalfX]);
   to.motion.half_y += static_cast<float>(change[kSmearHalfY]);
   return to;
-}
-
-Eigen::Matrix2d SmearedDisc::covariance(const DiscCells& cells, double least_variance) const {
-  DiscSums sums;
-  sumSmearedDisc(cells, sums);
-  return centreCovariance(*this, sums, least_variance);
 }
 
 }  // namespace helical

@@ -20,11 +20,11 @@ struct SmearedDisc {
   double halfLength() const;
   /// To the least squares near to where it stands, with as many moments as its way may take.
   void descend(DiscCells& cells, int steps);
-  /// Fills the cells' residuals, slopes and cover, and sums over them.
+  /// Fills the cells' residuals, slopes and cover.
+  void evaluate(DiscCells& cells) const;
+  /// The same, and their sums.
   DiscSums measure(DiscCells& cells) const;
   SmearedDisc moved(const Eigen::Matrix<double, kSize, 1>& change) const;
-  /// Of the centre, of cells just measured, whose residuals have at least that variance.
-  Eigen::Matrix2d covariance(const DiscCells& cells, double least_variance) const;
 };
 
 }  // namespace helical

@@ -9,6 +9,7 @@
 #include "engine/calibration/cold_start.h"
 #include "engine/calibration/cramer_rao.h"
 #include "engine/geometry/rotation.h"
+#include "tests/calibration/looking_camera.h"
 #include "tests/calibration/training_flight.h"
 #include "tests/support/allocation_counter.h"
 
@@ -50,16 +51,7 @@ TEST(Allocation, NorDoAdmissionAndBound) {
 
 /// Two metres and a half away, a third of the circle apart, looking at a point above the pad.
 RigidTransform coldCamera(std::size_t index) {
-  const double azimuth = 2.0944 * static_cast<double>(index) - 0.5, elevation = 0.7;
-  const Eigen::Vector3d away(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                             std::sin(elevation));
-  const Eigen::Vector3d z = -away, x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d rows;
-  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
-  RigidTransform pose;
-  pose.rotation = Eigen::Quaterniond(rows).normalized();
-  pose.translation = -(pose.rotation * (Eigen::Vector3d(0.0, 0.0, 0.3) + 2.5 * away));
-  return pose;
+  return lookingFrom(2.0944 * static_cast<double>(index) - 0.5, 0.7, 2.5, 0.3);
 }
 
 /// Two seconds on the pad, then carried about.

@@ -9,6 +9,7 @@
 #include "engine/base/random.h"
 #include "engine/geometry/camera_perturbation.h"
 #include "engine/geometry/rotation.h"
+#include "tests/calibration/looking_camera.h"
 
 namespace helical {
 namespace {
@@ -16,24 +17,11 @@ namespace {
 constexpr double kSigmaPx = 0.1;
 constexpr int kCameras = 3, kMoments = 60;
 
-RigidTransform placed(double azimuth, double elevation, double distance) {
-  const Eigen::Vector3d away(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                             std::sin(elevation));
-  const Eigen::Vector3d centre = Eigen::Vector3d(0.0, 0.0, 0.3) + distance * away;
-  const Eigen::Vector3d z = -away, x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d rows;
-  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
-  RigidTransform pose;
-  pose.rotation = Eigen::Quaterniond(rows).normalized();
-  pose.translation = -(pose.rotation * centre);
-  return pose;
-}
-
 /// Three cameras, the helicopter on its pad in some moments and waved about in the others.
 struct Scene {
   explicit Scene(std::uint64_t seed, double marker_error_m = 0.0, double focal_error = 0.0) : random(seed) {
     for (int c = 0; c < kCameras; ++c) {
-      truth.push_back(placed(2.1 * c - 0.5, 0.65 + 0.1 * c, 2.5 + 0.2 * c));
+      truth.push_back(lookingFrom(2.1 * c - 0.5, 0.65 + 0.1 * c, 2.5 + 0.2 * c, 0.3));
       const double f = 567.6;
       models.emplace_back(640, 480, f, f, 319.5, 239.5);
       real.emplace_back(640, 480, f * (1.0 + focal_error), f * (1.0 + focal_error), 319.5, 239.5);

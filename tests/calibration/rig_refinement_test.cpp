@@ -10,30 +10,19 @@
 
 #include "engine/base/random.h"
 #include "engine/geometry/rotation.h"
+#include "tests/calibration/looking_camera.h"
 
 namespace helical {
 namespace {
 
 constexpr double kRefinedSigmaPx = 0.1, kRefinedRateHz = 60.0;
 
-RigidTransform lookingFrom(double azimuth, double elevation) {
-  const Eigen::Vector3d away(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                             std::sin(elevation));
-  const Eigen::Vector3d z = -away, x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d rows;
-  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
-  RigidTransform pose;
-  pose.rotation = Eigen::Quaterniond(rows).normalized();
-  pose.translation = -(pose.rotation * (Eigen::Vector3d(0.0, 0.0, 0.5) + 2.7 * away));
-  return pose;
-}
-
 /// Three cameras whose poses are given exactly see a helicopter of some balls fly.
 class RefinedFlight {
  public:
   explicit RefinedFlight(const SelfCalibrationOptions& self) {
     for (int c = 0; c < 3; ++c) {
-      poses_.push_back(lookingFrom(2.1 * c - 0.5, 0.6));
+      poses_.push_back(lookingFrom(2.1 * c - 0.5, 0.6, 2.7, 0.5));
       models_.emplace_back(640, 480, 567.6, 567.6, 319.5, 239.5);
     }
     RigRefinementOptions options;

@@ -195,8 +195,7 @@ RigCalibration calibrateRig(std::span<const RigCamera> cameras, PointRows rows, 
     farthest = std::max(farthest, result.cameras.back().distance_m);
   }
   countDelaysFromFirst(result);
-  if (!(result.self.focal_sigma > 0.0) && !(options.self.focal_sigma > 0.0))
-    reportFocalDoubts(s, scale_held, result);
+  if (!(options.self.focal_sigma > 0.0)) reportFocalDoubts(s, scale_held, result);
   if (s.body) reportBody(*s.body, covariance, result);
   result.given_off_deg = off.degrees;
   result.given_off_share = farthest > 0.0 ? off.metres / farthest : 0.0;

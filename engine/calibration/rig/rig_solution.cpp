@@ -28,7 +28,6 @@ constexpr int kDelayRounds = 12, kDelayIterations = 15;
 constexpr double kSettledPeriods = 1e-3;  // a delay that changes by less has settled
 // Interpolation averages neighbours, which makes pixels look better than they are.
 constexpr double kInterpolationFlatters = 1.2;
-constexpr double kFewNearMisses = 0.2;
 constexpr double kHardlyFitting = 0.25;  // however much lies beyond the gate
 constexpr double kFitting = 0.5;         // share of inliers, from which on a camera's stamps are not doubted
 constexpr double kChainShare = 0.6, kFirstShare = 0.6;  // of the time

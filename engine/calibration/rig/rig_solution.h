@@ -38,5 +38,6 @@ void refine(RigSolution& s);
 /// rejected is something else than the target. As many as inliers: residuals go on beyond the gate, and the
 /// solution is hardly one.
 std::vector<double> nearMisses(const RigSolution& s);
+inline constexpr double kFewNearMisses = 0.2;
 
 }  // namespace helical

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/calibration/rig/rig_solution.h"
+
 namespace helical {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kGoodRms = 0.0025, kUsableRms = 0.008;
 constexpr double kGoodPlace = 0.005, kUsablePlace = 0.03;
 constexpr double kGoodRejected = 0.15, kUsableRejected = 0.5;
 // Where hardly anything lies just beyond the gate, what was rejected is something else than the target.
-constexpr double kUsableSomethingElse = 0.75, kFewNearMisses = 0.2;
+constexpr double kUsableSomethingElse = 0.75;
 constexpr long kGoodObservations = 60, kUsableObservations = 20;
 constexpr int kGoodParts = 4;       // of 16
 constexpr double kFarSigmas = 4.0;  // of a prior

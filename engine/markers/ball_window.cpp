@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "engine/geometry/rotation.h"
-#include "engine/markers/disc_normal.h"
+#include "engine/markers/cell_scatter.h"
 
 namespace helical {
 namespace {
 
-constexpr int kMargin = 3;             ///< cells around the region's box
-constexpr double kReach = 2.5;         ///< cells outside of the region's box that are fitted, too
+constexpr int kMargin = 3;         ///< cells around the region's box
+constexpr double kOutline = 1.25;  ///< cells on either side of the outline, of which the disc covers a part
+constexpr double kReach = 2.5;     ///< cells outside of the region's box that are fitted, too
 constexpr double kLeastChroma = 12.0;  ///< levels: below, a ball is told by its brightness
 const Eigen::Vector3d kGrey = Eigen::Vector3d::Constant(0.5773502691896258);
 
@@ -31,13 +32,21 @@ constexpr auto kDirections = [] {
   return directions;
 }();
 
-}  // namespace
+/// Of a row of cells: from the first to the one before the other.
+struct Chord {
+  int from = 0, to = 0;
 
-float medianOf(std::span<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+  /// What lies within `reach` of the place `middle` of a row of that width, which is `dy` beside it.
+  static Chord of(double reach, double dy, double middle, int width) {
+    const double square = reach * reach - dy * dy;
+    if (!(reach > 0.0 && square >= 0.0)) return {};
+    const double half = std::sqrt(square);
+    const int from = std::max(0, static_cast<int>(std::ceil(middle - half)));
+    return {from, std::max(from, std::min(width, static_cast<int>(std::floor(middle + half)) + 1))};
+  }
+};
+
+}  // namespace
 
 BallWindow::BallWindow() : colour(std::make_unique<DiscCells>()), brightness(std::make_unique<DiscCells>()) {}
 
@@ -53,33 +62,83 @@ bool BallWindow::read(const CellGrid& grid, const Region& of) {
             std::sqrt(area / kPi) + 0.3};
   axis = grid.layout == CellLayout::kBytes ? Eigen::Vector3d::UnitX() : colourAxis(grid);
   has_colour = grid.layout != CellLayout::kBytes && axis != kGrey;
-  const double middle_x = 0.5 * (of.left + of.right) - left;
-  const double middle_y = 0.5 * (of.top + of.bottom) - top;
-  const double reach = 0.5 * std::max(of.right - of.left, of.bottom - of.top) + 0.5 + kReach;
-  std::array<std::uint8_t, 3> cell{};
-  DiscCells& cells = *colour;
-  cells.count = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      readCell(grid, left + x, top + y, cell.data());
-      const auto value = static_cast<float>(axis[0] * cell[0] + axis[1] * cell[1] + axis[2] * cell[2]);
-      values_[static_cast<std::size_t>(y * width + x)] = value;
-      const double dx = x - middle_x, dy = y - middle_y;
-      if (dx * dx + dy * dy > reach * reach) continue;
-      const std::size_t i = cells.count++;
-      cells.x[i] = static_cast<float>(x);
-      cells.y[i] = static_cast<float>(y);
-      cells.value[i] = value;
-      cells.given[i] = givenAt(x, y);
-      brightness->value[i] = static_cast<float>(kGrey[0] * (cell[0] + cell[1] + cell[2]));
-    }
-  real_count = cells.count;
-  is_marked.fill(0);
-  for (; cells.count % kDiscLanes != 0; ++cells.count) {
-    cells.x[cells.count] = cells.y[cells.count] = cells.value[cells.count] = 0.0F;
-    cells.given[cells.count] = brightness->value[cells.count] = 0.0F;
-  }
+  readValues(grid);
+  findLevels();
+  const double radius = binary.radius,
+               reach = 0.5 * std::max(of.right - of.left, of.bottom - of.top) + 0.5 + kReach;
+  colour->count = 0;
+  std::fill_n(cell_at_.begin(), width * height, std::int16_t{-1});
+  addRing(0.0, radius - kOutline);
+  addRing(radius - kOutline, std::min(reach, radius + kOutline));
+  addRing(radius + kOutline, reach);
+  real_count = colour->count;
+  std::fill_n(is_marked.begin(), real_count, std::uint8_t{0});
+  for (; colour->count % kDiscLanes != 0; ++colour->count)
+    for (DiscCells* cells : {colour.get(), brightness.get()})
+      for (auto* values : {&cells->x, &cells->y, &cells->value, &cells->given})
+        (*values)[colour->count] = 0.0F;
   return true;
+}
+
+void BallWindow::readValues(const CellGrid& grid) {
+  const Eigen::Vector3f along = axis.cast<float>();
+  const auto grey = static_cast<float>(kGrey[0]);
+  const bool is_plain = grid.layout == CellLayout::kTriples;
+  std::array<std::uint8_t, std::size_t{3} * kLargestSide> row{};
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* cells = is_plain ? grid.row(top + y) + std::ptrdiff_t{3} * left : row.data();
+    if (!is_plain)
+      for (int x = 0; x < width; ++x)
+        readCell(grid, left + x, top + y, &row[static_cast<std::size_t>(3 * x)]);
+    float* values = &values_[static_cast<std::size_t>(y * width)];
+    float* greys = &brightness_[static_cast<std::size_t>(y * width)];
+    for (int x = 0; x < width; ++x) {
+      const auto first = static_cast<float>(cells[3 * x]), second = static_cast<float>(cells[3 * x + 1]),
+                 third = static_cast<float>(cells[3 * x + 2]);
+      values[x] = along[0] * first + along[1] * second + along[2] * third;
+      greys[x] = grey * (first + second + third);
+    }
+  }
+}
+
+void BallWindow::addRing(double from, double to) {
+  const double middle_x = 0.5 * (region.left + region.right) - left,
+               middle_y = 0.5 * (region.top + region.bottom) - top;
+  for (int y = 0; y < height; ++y) {
+    const Chord all = Chord::of(to, y - middle_y, middle_x, width);
+    const Chord inner = Chord::of(from, y - middle_y, middle_x, width);
+    const bool is_split = inner.to > inner.from;
+    addCells(y, all.from, is_split ? inner.from : all.to);
+    if (is_split) addCells(y, inner.to, all.to);
+  }
+}
+
+void BallWindow::addCells(int y, int from, int to) {
+  for (int x = from; x < to; ++x) {
+    const auto place = static_cast<std::size_t>(y * width + x);
+    const std::size_t i = colour->count++;
+    cell_at_[place] = static_cast<std::int16_t>(i);
+    colour->x[i] = static_cast<float>(x);
+    colour->y[i] = static_cast<float>(y);
+    colour->value[i] = values_[place];
+    colour->given[i] = givenAt(x, y);
+    brightness->value[i] = brightness_[place];
+  }
+}
+
+void BallWindow::findLevels() {
+  const auto size = static_cast<std::size_t>(width * height), area = static_cast<std::size_t>(region.area);
+  const float ball = valueOfRank({values_.data(), size}, size - std::max<std::size_t>(1, area / 2));
+  const auto row = static_cast<std::size_t>(width);
+  float* border = std::copy_n(values_.begin(), row, room.begin());
+  border = std::copy_n(&values_[size - row], row, border);
+  for (std::size_t at = row; at + row < size; at += row) {
+    *border++ = values_[at];
+    *border++ = values_[at + row - 1];
+  }
+  const float around = medianOf({room.data(), border});
+  level_ = 0.5F * (ball + around);
+  contrast_ = 0.5F * (ball - around);
 }
 
 Eigen::Vector3d BallWindow::colourAxis(const CellGrid& grid) const {
@@ -108,21 +167,6 @@ double BallWindow::valueAt(double x, double y) const {
   return (1.0 - b) * ((1.0 - a) * v[0] + a * v[1]) + b * ((1.0 - a) * v[width] + a * v[width + 1]);
 }
 
-ValueWindow BallWindow::values() {
-  std::size_t count = 0;
-  const auto size = static_cast<std::size_t>(width * height), area = static_cast<std::size_t>(region.area);
-  std::copy_n(values_.begin(), size, sorted.begin());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(size - std::max<std::size_t>(1, area / 2));
-  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(size));
-  const float ball = *middle;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      if (x == 0 || y == 0 || x == width - 1 || y == height - 1)
-        sorted[count++] = values_[static_cast<std::size_t>(y * width + x)];
-  const float around = medianOf(std::span(sorted.data(), count));
-  return {values_.data(), width, height, 0.5F * (ball + around), 0.5F * (ball - around)};
-}
-
 float BallWindow::givenAt(double x, double y) const {
   if (!neighbour) return 1.0F;
   const double dx = left + x - neighbour->centre.x, dy = top + y - neighbour->centre.y,
@@ -130,33 +174,12 @@ float BallWindow::givenAt(double x, double y) const {
   return dx * dx + dy * dy < reach * reach ? 0.0F : 1.0F;
 }
 
-std::size_t BallWindow::placeOf(std::size_t cell) const {
-  return static_cast<std::size_t>(colour->y[cell]) * static_cast<std::size_t>(width) +
-         static_cast<std::size_t>(colour->x[cell]);
-}
-
-float BallWindow::noiseAround() {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < real_count; ++i)
-    if (colour->given[i] != 0.0F && colour->cover[i] == 0.0F) sorted[count++] = std::abs(colour->residual[i]);
-  return count > 0 ? std::max(kLeastScale, 1.4826F * medianOf(std::span(sorted.data(), count))) : kLeastScale;
-}
-
-float BallWindow::residualScale(const DiscCells& cells) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < cells.count; ++i)
-    if (cells.given[i] != 0.0F) sorted[count++] = std::abs(cells.residual[i]);
-  return std::max(kLeastScale, 1.4826F * medianOf(std::span(sorted.data(), count)));
-}
-
-void BallWindow::leaveOutMarked(DiscCells& cells) {
-  for (std::size_t i = 0; i < real_count; ++i) {
-    const auto x = static_cast<int>(colour->x[i]), y = static_cast<int>(colour->y[i]);
-    // The neighbours of a hidden cell are partly hidden.
-    for (int ny = std::max(0, y - 1); ny <= std::min(height - 1, y + 1); ++ny)
-      for (int nx = std::max(0, x - 1); nx <= std::min(width - 1, x + 1); ++nx)
-        if (is_marked[static_cast<std::size_t>(ny * width + nx)] != 0) cells.given[i] = 0.0F;
-  }
+void BallWindow::leaveOut(std::size_t cell, DiscCells& cells) const {
+  const auto x = static_cast<int>(colour->x[cell]), y = static_cast<int>(colour->y[cell]);
+  for (int ny = std::max(0, y - 1); ny <= std::min(height - 1, y + 1); ++ny)
+    for (int nx = std::max(0, x - 1); nx <= std::min(width - 1, x + 1); ++nx)
+      if (const int at = cell_at_[static_cast<std::size_t>(ny * width + nx)]; at >= 0)
+        cells.given[static_cast<std::size_t>(at)] = 0.0F;
 }
 
 int BallWindow::traceOutline(double level, std::span<OutlinePoint> outline) const {

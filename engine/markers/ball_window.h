@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,18 +29,13 @@ struct BallWindow {
   bool read(const CellGrid& grid, const Region& of);
   Eigen::Vector2d corner() const { return {left, top}; }
   /// All of it, with the level between the ball and what is around it.
-  ValueWindow values();
+  ValueWindow values() const { return {values_.data(), width, height, level_, contrast_}; }
   /// 0 for a cell that is the neighbour's.
   float givenAt(double x, double y) const;
-  std::size_t placeOf(std::size_t cell) const;
   /// The points at that level on rays from the region's centre of gravity; how many there are.
   int traceOutline(double level, std::span<OutlinePoint> outline) const;
-  /// Standard deviation of the residuals, which must have been evaluated: of these cells, and of those that
-  /// the disc does not cover.
-  float residualScale(const DiscCells& cells);
-  float noiseAround();
-  /// Cells beside a marked one are no longer given.
-  void leaveOutMarked(DiscCells& cells);
+  /// That cell and those beside it, which what is before it hides in part, are no longer given.
+  void leaveOut(std::size_t cell, DiscCells& cells) const;
 
   int left = 0, top = 0;  ///< of the window, in the image
   int width = 0, height = 0;
@@ -50,18 +46,23 @@ struct BallWindow {
   bool has_colour = false;
   std::size_t real_count = 0;  ///< of the cells, without what only fills up
   std::unique_ptr<DiscCells> colour;
-  std::unique_ptr<DiscCells> brightness;  ///< values only, until somebody sets the rest
-  std::array<std::uint8_t, kLargestSide * kLargestSide> is_marked{};  ///< by place: does not fit
-  std::array<float, kDiscCells> sorted{};                             ///< room for a median
+  std::unique_ptr<DiscCells> brightness;             ///< values only, until somebody sets the rest
+  std::array<std::uint8_t, kDiscCells> is_marked{};  ///< cells that do not fit
+  std::array<float, kDiscCells> room{};              ///< for medians
 
  private:
+  void readValues(const CellGrid& grid);
+  /// Adds the cells between two distances from the middle of the region's box.
+  void addRing(double from, double to);
+  void addCells(int y, int from, int to);
   Eigen::Vector3d colourAxis(const CellGrid& grid) const;
+  void findLevels();
   double valueAt(double x, double y) const;
 
   std::array<float, kLargestSide * kLargestSide> values_{};
+  std::array<float, kLargestSide * kLargestSide> brightness_{};
+  std::array<std::int16_t, kLargestSide * kLargestSide> cell_at_{};  ///< by place; -1 where there is none
+  float level_ = 0.0F, contrast_ = 0.0F;
 };
-
-/// Sorts some of them.
-float medianOf(std::span<float> values);
 
 }  // namespace helical

@@ -8,7 +8,6 @@
 namespace helical {
 namespace {
 
-constexpr float kFlat = 0.15F;
 constexpr int kSteps = 12;
 constexpr std::size_t kTries = 3;  ///< of the directions that something may hide a part from
 /// A disc of which a quarter is hidden: its radius over that of a disc of what is seen; from that radius on,
@@ -24,7 +23,7 @@ constexpr std::array<std::array<float, 2>, 8> kDirections{{{1.0F, 0.0F},
                                                            {0.0F, -1.0F},
                                                            {kDiagonal, -kDiagonal}}};
 
-CutDisc cutFrom(const std::array<float, 2>& normal, const std::array<float, kDiscParameters>& disc) {
+CutDisc cutFrom(const std::array<float, 2>& normal, const DiscValues& disc) {
   CutDisc cut;
   cut.disc = disc;
   const float radius = kRadius * disc[kDiscRadius], shift = kShift * radius;
@@ -37,39 +36,24 @@ CutDisc cutFrom(const std::array<float, 2>& normal, const std::array<float, kDis
 
 }  // namespace
 
-CutDisc nearestCut(const std::array<float, kDiscParameters>& disc, DiscCells& cells) {
+NearestCut nearestCut(const DiscValues& disc, DiscCells& cells) {
   std::array<CutDisc, kDirections.size()> cuts;
-  DiscSums sums;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     cuts[i] = cutFrom(kDirections[i], disc);
-    cuts[i].evaluate(cells);
-    sumDisc(cells, sums);
-    cuts[i].squares = sums.squares;
+    cuts[i].squares = cuts[i].measure(cells).squares;
   }
   const auto isBetter = [](const CutDisc& a, const CutDisc& b) { return a.squares < b.squares; };
   const auto tried = cuts.begin() + kTries;
   std::partial_sort(cuts.begin(), tried, cuts.end(), isBetter);
   std::for_each(cuts.begin(), tried, [&](CutDisc& cut) { cut.descend(cells, kSteps); });
-  CutDisc best = *std::min_element(cuts.begin(), tried, isBetter);
-  best.evaluate(cells);
-  return best;
-}
-
-bool hasShadow(const std::array<float, kDiscParameters>& disc) {
-  const float x = disc[kDiscLightX], y = disc[kDiscLightY], z = disc[kDiscLightZ],
-              flat = kFlat * disc[kDiscAmbient];
-  return x * x + y * y + z * z > flat * flat;
-}
-
-void CutDisc::evaluate(DiscCells& cells) const {
-  evaluateDisc(disc, hasShadow(disc), cells);
-  cutDisc(edge, cells);
+  const CutDisc& best = *std::min_element(cuts.begin(), tried, isBetter);
+  const DiscSums sums = best.measure(cells);
+  return {best, centreCovariance(best, sums, kLeastVariance)};
 }
 
 DiscSums CutDisc::measure(DiscCells& cells) const {
-  evaluate(cells);
   DiscSums sums;
-  sumCutDisc(cells, sums);
+  measureCutDisc(disc, edge, cells, sums);
   return sums;
 }
 
@@ -89,12 +73,6 @@ CutDisc CutDisc::moved(const Eigen::Matrix<double, kSize, 1>& change) const {
 
 void CutDisc::descend(DiscCells& cells, int steps) {
   descendTo(*this, cells, steps);
-}
-
-Eigen::Matrix2d CutDisc::covariance(const DiscCells& cells, double least_variance) const {
-  DiscSums sums;
-  sumCutDisc(cells, sums);
-  return centreCovariance(*this, sums, least_variance);
 }
 
 }  // namespace helical

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -45,7 +44,7 @@ void descendTo(Model& model, DiscCells& cells, int steps) {
     for (bool is_better = false; !is_better && step < steps && damping < kMostDamping; ++step) {
       auto damped = normal;
       damped.diagonal() *= 1.0 + damping;
-      Vector change = damped.ldlt().solve(gradient);
+      Vector change = NormalSolver<Model::kSize>(damped).solve(gradient);
       const double length = std::sqrt(change.template head<3>().squaredNorm()),
                    most = kFarthest * model.disc[kDiscRadius];
       if (!(length < 1e6)) return;
@@ -70,11 +69,9 @@ void descendTo(Model& model, DiscCells& cells, int steps) {
 /// variance.
 template <class Model>
 Eigen::Matrix2d centreCovariance(const Model& model, const DiscSums& sums, double least_variance) {
-  using Normal = Eigen::Matrix<double, Model::kSize, Model::kSize>;
-  const Normal inverse =
-      normalWithPrior<Model::kSize>(sums, model.disc[kDiscAmbient]).ldlt().solve(Normal::Identity());
+  const NormalSolver<Model::kSize> solver(normalWithPrior<Model::kSize>(sums, model.disc[kDiscAmbient]));
   const double variance = sums.squares / std::max(1.0, sums.count - double{Model::kSize});
-  return std::max(least_variance, variance) * inverse.template topLeftCorner<2, 2>();
+  return std::max(least_variance, variance) * solver.firstTwo();
 }
 
 }  // namespace helical

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/geometry/rotation.h"
+#include "engine/markers/cell_scatter.h"
 #include "engine/markers/cut_disc.h"
 #include "engine/markers/disc_normal.h"
 
@@ -108,7 +109,7 @@ Disc DiscFit::fitPart(const CellGrid& grid, Region part, const OutlineCircle& mi
   return outline;
 }
 
-Smear DiscFit::smearOfRegion() {
+Smear DiscFit::smearOfRegion() const {
   if (window_.neighbour) return {};
   const ValueWindow values = window_.values();
   return measureSmear({{window_.colour->x.data(), window_.real_count},
@@ -119,7 +120,7 @@ Smear DiscFit::smearOfRegion() {
 }
 
 std::optional<SmearedBall> DiscFit::fitMoving(const CellGrid& grid, const Smear& smear,
-                                              const ShadedDisc::Parameters* at_rest, double most_excess) {
+                                              const DiscValues* at_rest, double most_excess) {
   if (!(smear.shorter > 0.0)) return std::nullopt;
   const ValueWindow values = window_.values();
   SmearStart start;
@@ -128,7 +129,7 @@ std::optional<SmearedBall> DiscFit::fitMoving(const CellGrid& grid, const Smear&
   start.radius = 2.0 * std::sqrt(smear.shorter);
   start.ball = static_cast<double>(values.level + values.contrast);
   start.around = static_cast<double>(values.level - values.contrast);
-  std::array<float, kDiscParameters> disc{};
+  DiscValues disc{};
   if (at_rest != nullptr) {
     disc = *at_rest;
     disc[kDiscX] += static_cast<float>(window_.left);
@@ -147,8 +148,6 @@ std::optional<Disc> DiscFit::fitColour(const CellGrid& grid) {
   if (has_sides && smear.elongation > kLeastSmear) smear_ = smear.covariance;
   const bool is_smeared = has_sides && smear.isOver(kSurelySmeared);
   disc_.start(window_.binary);
-  std::array<OutlinePoint, kOutlineRays> room;
-  const std::span outline(room.data(), static_cast<std::size_t>(window_.traceOutline(disc_.level(), room)));
   if (!is_smeared && disc_.descend(kSteps) && isPlausible() && disc_.fitsEverywhere()) {
     if (!window_.neighbour && mayHaveMoved(smear))
       if (const auto ball = fitMoving(grid, smear, &disc_.parameters(), kAny)) return discOf(*ball);
@@ -157,13 +156,19 @@ std::optional<Disc> DiscFit::fitColour(const CellGrid& grid) {
   if (!window_.neighbour)
     if (const auto disc = fitMovingOrCut(grid, smear)) return disc;
   if (has_sides && smear.isOver(kLeastSmear)) return std::nullopt;
-  disc_.start(window_.neighbour ? window_.binary
-                                : bestCircle(outline, window_.binary.radius).value_or(window_.binary));
+  disc_.start(window_.neighbour ? window_.binary : outlineOfRest());
   for (int round = 0; round < kRounds; ++round) {
     disc_.leaveOutHidden();
     if (!disc_.descend(kSteps) || !isPlausible()) return std::nullopt;
   }
   return result();
+}
+
+OutlineCircle DiscFit::outlineOfRest() const {
+  std::array<OutlinePoint, kOutlineRays> room;
+  const int count = window_.traceOutline(static_cast<double>(window_.values().level), room);
+  return bestCircle({room.data(), static_cast<std::size_t>(count)}, window_.binary.radius)
+      .value_or(window_.binary);
 }
 
 bool DiscFit::mayHaveMoved(const Smear& smear) {
@@ -183,12 +188,12 @@ std::optional<Disc> DiscFit::fitMovingOrCut(const CellGrid& grid, const Smear& s
 std::optional<Disc> DiscFit::fitCut(double& excess) {
   DiscCells& cells = *window_.colour;
   disc_.start(window_.binary);
-  const CutDisc cut = nearestCut(disc_.parameters(), cells);
-  disc_.start(cut.disc);
+  const auto [cut, covariance] = nearestCut(disc_.parameters(), cells);
   double seen = 0.0;
   for (std::size_t i = 0; i < window_.real_count; ++i) seen += cells.cover[i];
-  const auto disc = believed(cut.covariance(cells, kLeastVariance), seen);
-  const double noise = window_.noiseAround(), squares = cut.squares / (noise * noise);
+  const double noise = noiseAround(cells, window_.room), squares = cut.squares / (noise * noise);
+  disc_.start(cut.disc);
+  const auto disc = believed(covariance, seen);
   excess = squares - cut.count;
   if (squares > kCutTail * cut.count || !isPlausible() || !disc || disc->seen_share < kLeastSeen)
     return std::nullopt;
@@ -206,7 +211,7 @@ std::optional<Disc> DiscFit::withBrightness(const Disc& by_colour) {
 
 std::optional<Disc> DiscFit::result() {
   const ShadedDisc::Quality quality = disc_.quality();
-  const double noise = window_.noiseAround(), misfit = kWorstMisfit * disc_.contrast();
+  const double noise = disc_.noise(), misfit = kWorstMisfit * disc_.contrast();
   if (quality.variance > noise * noise + misfit * misfit) return std::nullopt;
   return believed(quality.covariance, disc_.seenCells());
 }

@@ -57,10 +57,11 @@ class DiscFit {
   std::optional<Disc> withBrightness(const Disc& by_colour);
   Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
   std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear);
-  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear,
-                                       const ShadedDisc::Parameters* at_rest, double most_excess);
+  std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear, const DiscValues* at_rest,
+                                       double most_excess);
   std::optional<Disc> fitCut(double& excess);
-  Smear smearOfRegion();
+  OutlineCircle outlineOfRest() const;
+  Smear smearOfRegion() const;
   bool mayHaveMoved(const Smear& smear);
   bool isOneMoving(const CellGrid& grid);
   std::optional<Disc> result();

@@ -24,177 +24,118 @@ HWY_INLINE Floats positive(Floats x) {
   return hn::Max(x, all(0.0F));
 }
 
-/// The part of a unit cell that lies inside of a straight edge.
-struct CoveredPart {
-  Floats share;   ///< of the cell
-  Floats slope;   ///< of the share, by the edge's place
-  Floats middle;  ///< of the part, from the cell's centre along the edge's outward normal
-  Floats spread;  ///< standard deviation around it
-};
+#include "engine/markers/disc_shading.inc"
+#include "engine/markers/disc_sums.inc"
 
-/// `s` from the cell's centre to the edge along its outward normal, of which p and q are the absolute
-/// components. Across the normal the cell is a trapezoid: what of it lies beyond |s| has the moments below.
-HWY_INLINE CoveredPart coveredPart(Floats s, Floats p, Floats q) {
-  const Floats longer = hn::Max(hn::Max(p, q), all(0.5F)), shorter = hn::Min(p, q);
-  const Floats outer = all(0.5F) * (p + q), inner = all(0.5F) * (longer - shorter);
-  const Floats distance = hn::Abs(s), rest = positive(outer - distance), in_slope = hn::Min(rest, shorter);
-  const Floats middle =
-      positive(inner - distance);  // of the part beyond, how far it reaches into the flat top
-  // The sloping end, from `outer` inwards; it has the area in_slope^2 / (2 shorter longer).
-  const Floats height =
-      hn::IfThenElse(hn::Lt(distance, inner), all(1.0F), in_slope / hn::Max(shorter, all(1e-6F)));
-  const Floats end = all(0.5F) * in_slope * height;
-  const Floats end_moment = end * (outer - all(2.0F / 3.0F) * in_slope);
-  const Floats end_square =
-      end * (outer * (outer - all(4.0F / 3.0F) * in_slope) + all(0.5F) * in_slope * in_slope);
-  const Floats flat_place = distance + all(0.5F) * middle;
-  const Floats beyond = (end + middle) / longer;
-  const Floats moment = (end_moment + middle * flat_place) / longer;
-  const Floats square =
-      (end_square + middle * (flat_place * flat_place + all(1.0F / 12.0F) * middle * middle)) / longer;
-  const auto is_most = hn::Gt(s, all(0.0F));
-  CoveredPart part;
-  part.share = hn::IfThenElse(is_most, all(1.0F) - beyond, beyond);
-  part.slope = height / longer;
-  const Floats share = hn::Max(part.share, all(1e-6F));
-  part.middle = all(0.0F) - moment / share;  // the whole cell's moment is 0
-  const Floats mean_square = hn::IfThenElse(is_most, all(1.0F / 12.0F) - square, square) / share;
-  part.spread = hn::Sqrt(positive(mean_square - part.middle * part.middle));
-  return part;
-}
-
-HWY_INLINE Floats heightOnSphere(Floats rho) {
-  return hn::Sqrt(positive(all(1.0F) - rho * rho));
-}
-
-/// The model's parameters and what follows from them, for all cells.
-struct DiscTerms {
-  explicit DiscTerms(const std::array<float, kDiscParameters>& p, bool shadowed)
-      : x(all(p[kDiscX])),
-        y(all(p[kDiscY])),
-        radius(all(p[kDiscRadius])),
-        inverse_radius(all(1.0F) / radius),
-        ambient(all(p[kDiscAmbient])),
-        light_x(all(p[kDiscLightX])),
-        light_y(all(p[kDiscLightY])),
-        light_z(all(p[kDiscLightZ])),
-        around(all(p[kDiscAround])),
-        with_shadow(shadowed) {}
-
-  Floats x, y, radius, inverse_radius, ambient, light_x, light_y, light_z, around;
-  bool with_shadow;
-};
-
-/// What the ball makes of a cell.
-struct ShadedCell {
-  Floats cover;                                                      ///< share of the cell
-  Floats above;                                                      ///< what it adds to the level around it
-  Floats by_x, by_y, by_radius, by_light_x, by_light_y, by_light_z;  ///< slopes; that by ambient is cover
-};
-
-/// `dx`, `dy`: from the ball's centre to the cell's.
-HWY_INLINE ShadedCell shadedCell(const DiscTerms& disc, Floats dx, Floats dy) {
-  const Floats zero = all(0.0F), half = all(0.5F);
-  const Floats distance = hn::Sqrt(dx * dx + dy * dy) + all(1e-6F);
-  const Floats nx = dx / distance, ny = dy / distance;
-  const CoveredPart part = coveredPart(disc.radius - distance, hn::Abs(nx), hn::Abs(ny));
-  const Floats cover = part.share, edge = part.slope;
-  // Light is taken at two places of the part of the cell that the ball covers, along the radius.
-  const Floats rho = (distance + part.middle) * disc.inverse_radius,
-               spread = part.spread * disc.inverse_radius;
-  const Floats z = half * (heightOnSphere(rho - spread) + heightOnSphere(rho + spread));
-  const Floats u = nx * rho, v = ny * rho;
-  Floats directed = disc.light_x * u + disc.light_y * v + disc.light_z * z;
-  const Floats lit = disc.with_shadow ? hn::IfThenElse(hn::Gt(directed, zero), all(1.0F), zero) : all(1.0F);
-  directed = directed * lit;
-  const Floats contrast = disc.ambient + directed - disc.around;
-  const Floats edge_contrast = edge * contrast, lit_cover = lit * cover;
-  const Floats steep = disc.light_z / hn::Max(z, all(0.25F)), inward = lit_cover * disc.inverse_radius;
-  const Floats by_u = disc.light_x - steep * u, by_v = disc.light_y - steep * v;
-  ShadedCell cell;
-  cell.cover = cover;
-  cell.above = cover * contrast;
-  cell.by_x = edge_contrast * nx - inward * by_u;
-  cell.by_y = edge_contrast * ny - inward * by_v;
-  cell.by_radius = edge_contrast - inward * (u * by_u + v * by_v);
-  cell.by_light_x = lit_cover * u;
-  cell.by_light_y = lit_cover * v;
-  cell.by_light_z = lit_cover * z;
-  return cell;
-}
-
-/// Sets a cell's residual, cover and slopes.
-HWY_INLINE void storeCell(const DiscTerms& disc, const ShadedCell& cell, std::size_t i, DiscCells& cells) {
+/// What a cell shows over what the model says.
+HWY_INLINE Floats storeResidual(std::size_t i, Floats expected, Floats cover, DiscCells& cells) {
   const Tag d;
-  hn::Store(cell.by_x, d, &cells.slope[kDiscX][i]);
-  hn::Store(cell.by_y, d, &cells.slope[kDiscY][i]);
-  hn::Store(cell.by_radius, d, &cells.slope[kDiscRadius][i]);
-  hn::Store(cell.cover, d, &cells.slope[kDiscAmbient][i]);
-  hn::Store(cell.by_light_x, d, &cells.slope[kDiscLightX][i]);
-  hn::Store(cell.by_light_y, d, &cells.slope[kDiscLightY][i]);
-  hn::Store(cell.by_light_z, d, &cells.slope[kDiscLightZ][i]);
-  hn::Store(all(1.0F) - cell.cover, d, &cells.slope[kDiscAround][i]);
-  hn::Store(cell.cover, d, &cells.cover[i]);
-  hn::Store(hn::Load(d, &cells.value[i]) - (disc.around + cell.above), d, &cells.residual[i]);
+  const Floats residual = hn::Load(d, &cells.value[i]) - expected;
+  hn::Store(cover, d, &cells.cover[i]);
+  hn::Store(residual, d, &cells.residual[i]);
+  return residual;
 }
 
-void evaluateAll(const std::array<float, kDiscParameters>& p, bool with_shadow, DiscCells& cells) {
+void measureAll(const DiscValues& p, DiscCells& cells, DiscSums& totals) {
   const Tag d;
-  const DiscTerms disc(p, with_shadow);
-  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d))
-    storeCell(disc, shadedCell(disc, hn::Load(d, &cells.x[i]) - disc.x, hn::Load(d, &cells.y[i]) - disc.y), i,
-              cells);
+  const DiscTerms disc(p);
+  Sums<kDiscParameters> sums;
+  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
+    const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y,
+                 given = hn::Load(d, &cells.given[i]);
+    if (isOutside(disc, dx, dy)) {
+      sums.addAround(i, storeResidual(i, disc.around, all(0.0F), cells), given);
+      continue;
+    }
+    const ShadedCell cell = shaded(litCell(disc, dx, dy), disc.around);
+    const Floats residual = storeResidual(i, disc.around + cell.above, cell.slope[kDiscAmbient], cells);
+    sums.add(i, cell.slope, residual, given);
+  }
+  sums.store(totals);
 }
 
-void smearAll(const std::array<float, kDiscParameters>& p, bool with_shadow, const DiscMotion& motion,
-              DiscCells& cells) {
+void measureBoth(const DiscValues& p, const SecondPicture& picture, DiscCells& first, DiscCells& second,
+                 DiscSums& first_totals, DiscSums& second_totals) {
   const Tag d;
-  const DiscTerms disc(p, with_shadow);
+  const DiscTerms disc(p);
+  const Floats ratio = all(picture.ratio), around = all(picture.around);
+  Sums<kDiscParameters> sums;
+  Sums<kSecondParameters> second_sums;
+  for (std::size_t i = 0; i < first.count; i += hn::Lanes(d)) {
+    const Floats dx = hn::Load(d, &first.x[i]) - disc.x, dy = hn::Load(d, &first.y[i]) - disc.y,
+                 given = hn::Load(d, &first.given[i]), second_given = hn::Load(d, &second.given[i]);
+    if (isOutside(disc, dx, dy)) {
+      sums.addAround(i, storeResidual(i, disc.around, all(0.0F), first), given);
+      second_sums.addAround(i, storeResidual(i, around, all(0.0F), second), second_given);
+      continue;
+    }
+    LitCell lit = litCell(disc, dx, dy);
+    const ShadedCell cell = shaded(lit, disc.around);
+    sums.add(i, cell.slope, storeResidual(i, disc.around + cell.above, lit.cover, first), given);
+    const Floats by_ratio = lit.cover * lit.light;
+    for (Floats* light : {&lit.light, &lit.turned_x, &lit.turned_y, &lit.grown, &lit.by_light_x,
+                          &lit.by_light_y, &lit.by_light_z})
+      *light = *light * ratio;
+    const ShadedCell other = shaded(lit, around);
+    const Floats(&by)[kDiscParameters] = other.slope;
+    const Floats slope[kSecondParameters] = {by[0], by[1], by[2], ratio * by[3], by[4],
+                                             by[5], by[6], by[7], by_ratio};
+    second_sums.add(i, slope, storeResidual(i, around + other.above, lit.cover, second), second_given);
+  }
+  sums.store(first_totals);
+  second_sums.store(second_totals);
+}
+
+void measureSmeared(const DiscValues& p, const DiscMotion& motion, DiscCells& cells, DiscSums& totals) {
+  const Tag d;
+  const DiscTerms disc(p);
   const Floats zero = all(0.0F), share = all(1.0F / static_cast<float>(motion.moments));
-  const Floats reach = disc.radius + all(0.75F), reach2 = reach * reach;  // beyond half a cell's diagonal
+  Sums<kSmearParameters> sums;
   for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
     const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y;
-    ShadedCell sum{zero, zero, zero, zero, zero, zero, zero, zero};
-    Floats by_half_x = zero, by_half_y = zero;
+    Floats slope[kSmearParameters] = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero},
+           above = zero;
     for (int k = 0; k < motion.moments; ++k) {
       const float at = (2.0F * static_cast<float>(k) + 1.0F) / static_cast<float>(motion.moments) - 1.0F;
       const Floats x = dx - all(at * motion.half_x), y = dy - all(at * motion.half_y);
-      if (hn::AllTrue(d, hn::Gt(x * x + y * y, reach2))) continue;
-      const ShadedCell cell = shadedCell(disc, x, y);
-      sum.cover = sum.cover + share * cell.cover;
-      sum.above = sum.above + share * cell.above;
-      sum.by_x = sum.by_x + share * cell.by_x;
-      sum.by_y = sum.by_y + share * cell.by_y;
-      sum.by_radius = sum.by_radius + share * cell.by_radius;
-      sum.by_light_x = sum.by_light_x + share * cell.by_light_x;
-      sum.by_light_y = sum.by_light_y + share * cell.by_light_y;
-      sum.by_light_z = sum.by_light_z + share * cell.by_light_z;
-      by_half_x = by_half_x + all(at) * share * cell.by_x;
-      by_half_y = by_half_y + all(at) * share * cell.by_y;
+      if (isOutside(disc, x, y)) continue;
+      const ShadedCell cell = shaded(litCell(disc, x, y), disc.around);
+      above = above + share * cell.above;
+      for (int a = 0; a < kDiscAround; ++a) slope[a] = slope[a] + share * cell.slope[a];
+      slope[kSmearHalfX] = slope[kSmearHalfX] + all(at) * share * cell.slope[kDiscX];
+      slope[kSmearHalfY] = slope[kSmearHalfY] + all(at) * share * cell.slope[kDiscY];
     }
-    storeCell(disc, sum, i, cells);
-    hn::Store(by_half_x, d, &cells.slope[kSmearHalfX][i]);
-    hn::Store(by_half_y, d, &cells.slope[kSmearHalfY][i]);
+    const Floats cover = slope[kDiscAmbient];
+    slope[kDiscAround] = all(1.0F) - cover;
+    sums.add(i, slope, storeResidual(i, disc.around + above, cover, cells), hn::Load(d, &cells.given[i]));
   }
+  sums.store(totals);
 }
 
-void cutAll(const CutEdge& edge, DiscCells& cells) {
+void measureCut(const DiscValues& p, const CutEdge& edge, DiscCells& cells, DiscSums& totals) {
   const Tag d;
+  const DiscTerms disc(p);
   const Floats nx = all(edge.normal_x), ny = all(edge.normal_y), level = all(edge.level), one = all(1.0F);
+  Sums<kCutParameters> sums;
   for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
-    const Floats dx = hn::Load(d, &cells.x[i]) - all(edge.x), dy = hn::Load(d, &cells.y[i]) - all(edge.y);
+    const Floats x = hn::Load(d, &cells.x[i]), y = hn::Load(d, &cells.y[i]);
+    const Floats disc_x = x - disc.x, disc_y = y - disc.y;
+    const ShadedCell cell =
+        isOutside(disc, disc_x, disc_y) ? nothingOf() : shaded(litCell(disc, disc_x, disc_y), disc.around);
+    const Floats dx = x - all(edge.x), dy = y - all(edge.y);
     const CoveredPart part = coveredPart(all(edge.offset) - (nx * dx + ny * dy), hn::Abs(nx), hn::Abs(ny));
-    const Floats seen = part.share, value = hn::Load(d, &cells.value[i]);
-    const Floats above = value - hn::Load(d, &cells.residual[i]) - level;  // the disc over what hides it
-    for (int k = 0; k < kDiscParameters; ++k)
-      hn::Store(seen * hn::Load(d, &cells.slope[k][i]), d, &cells.slope[k][i]);
+    const Floats seen = part.share;
+    const Floats above = disc.around + cell.above - level;  // the disc over what hides it
     const Floats by_offset = part.slope * above;
-    hn::Store(by_offset, d, &cells.slope[kCutOffset][i]);
-    hn::Store(by_offset * (ny * dx - nx * dy), d, &cells.slope[kCutTurn][i]);
-    hn::Store(one - seen, d, &cells.slope[kCutLevel][i]);
-    hn::Store(seen * hn::Load(d, &cells.cover[i]), d, &cells.cover[i]);
-    hn::Store(value - (level + seen * above), d, &cells.residual[i]);
+    Floats slope[kCutParameters];
+    for (int a = 0; a < kDiscParameters; ++a) slope[a] = seen * cell.slope[a];
+    slope[kCutOffset] = by_offset;
+    slope[kCutTurn] = by_offset * (ny * dx - nx * dy);
+    slope[kCutLevel] = one - seen;
+    sums.add(i, slope, storeResidual(i, level + seen * above, slope[kDiscAmbient], cells),
+             hn::Load(d, &cells.given[i]));
   }
+  sums.store(totals);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -204,21 +145,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace helical {
 
-HWY_EXPORT(evaluateAll);
-HWY_EXPORT(cutAll);
-HWY_EXPORT(smearAll);
+HWY_EXPORT(measureAll);
+HWY_EXPORT(measureBoth);
+HWY_EXPORT(measureCut);
+HWY_EXPORT(measureSmeared);
 
-void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells) {
-  HWY_DYNAMIC_DISPATCH(evaluateAll)(parameters, with_shadow, cells);
+void measureDisc(const DiscValues& disc, DiscCells& cells, DiscSums& sums) {
+  HWY_DYNAMIC_DISPATCH(measureAll)(disc, cells, sums);
 }
 
-void cutDisc(const CutEdge& edge, DiscCells& cells) {
-  HWY_DYNAMIC_DISPATCH(cutAll)(edge, cells);
+void measureTwo(const DiscValues& disc, const SecondPicture& picture, DiscCells& first, DiscCells& second,
+                DiscSums& first_sums, DiscSums& second_sums) {
+  HWY_DYNAMIC_DISPATCH(measureBoth)(disc, picture, first, second, first_sums, second_sums);
 }
 
-void smearDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow,
-               const DiscMotion& motion, DiscCells& cells) {
-  HWY_DYNAMIC_DISPATCH(smearAll)(parameters, with_shadow, motion, cells);
+void measureCutDisc(const DiscValues& disc, const CutEdge& edge, DiscCells& cells, DiscSums& sums) {
+  HWY_DYNAMIC_DISPATCH(measureCut)(disc, edge, cells, sums);
+}
+
+void measureSmearedDisc(const DiscValues& disc, const DiscMotion& motion, DiscCells& cells, DiscSums& sums) {
+  HWY_DYNAMIC_DISPATCH(measureSmeared)(disc, motion, cells, sums);
 }
 
 }  // namespace helical

@@ -39,7 +39,6 @@ struct DiscCells {
   alignas(64) std::array<float, kDiscCells> given;  ///< 1, or 0 for what is not fitted
   alignas(64) std::array<float, kDiscCells> residual;
   alignas(64) std::array<float, kDiscCells> cover;
-  alignas(64) std::array<std::array<float, kDiscCells>, kCutParameters> slope;
 };
 
 /// The straight edge of something before the ball: what lies beyond, seen from a place along the normal, is
@@ -58,6 +57,17 @@ struct DiscMotion {
   int moments = 1;
 };
 
+/// A second picture of the same disc, cell for cell: its light is that much brighter, before a level of its
+/// own.
+struct SecondPicture {
+  float ratio = 1.0F;
+  float around = 0.0F;
+};
+/// The parameters of a second picture's model: the disc's, with the level around it being the picture's own,
+/// and the ratio.
+inline constexpr int kSecondRatio = kDiscParameters, kSecondParameters = kSecondRatio + 1;
+
+/// Over the given cells.
 struct DiscSums {
   std::array<std::array<double, kCutParameters>, kCutParameters> normal;  ///< lower triangle
   std::array<double, kCutParameters> gradient;
@@ -65,18 +75,21 @@ struct DiscSums {
   double squares;
 };
 
-/// Fills residual, cover and slope. `with_shadow`: no surface is darker than by ambient light alone.
-void evaluateDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow, DiscCells& cells);
-/// After evaluateDisc: the same with an edge before the disc, and the edge's slopes. `cover` is what is seen.
-void cutDisc(const CutEdge& edge, DiscCells& cells);
-/// As evaluateDisc, of a disc that moved, and the motion's slopes.
-void smearDisc(const std::array<float, kDiscParameters>& parameters, bool with_shadow,
-               const DiscMotion& motion, DiscCells& cells);
-/// Over the given cells, of the disc's parameters alone, or of the edge's or the motion's, too.
-void sumDisc(const DiscCells& cells, DiscSums& sums);
-void sumCutDisc(const DiscCells& cells, DiscSums& sums);
-void sumSmearedDisc(const DiscCells& cells, DiscSums& sums);
+using DiscValues = std::array<float, kDiscParameters>;
+
+/// Each fills residual and cover and gives the sums of the residuals and their slopes by the parameters.
+/// No surface is darker than by ambient light alone, if there is directed light to speak of.
+void measureDisc(const DiscValues& disc, DiscCells& cells, DiscSums& sums);
+/// Of two pictures of it, whose cells are the same; the second's only `value` and `given` are read.
+void measureTwo(const DiscValues& disc, const SecondPicture& picture, DiscCells& first, DiscCells& second,
+                DiscSums& first_sums, DiscSums& second_sums);
+/// With an edge before the disc; `cover` is what is seen.
+void measureCutDisc(const DiscValues& disc, const CutEdge& edge, DiscCells& cells, DiscSums& sums);
+/// Of a disc that moved.
+void measureSmearedDisc(const DiscValues& disc, const DiscMotion& motion, DiscCells& cells, DiscSums& sums);
 
 // The same bits in every instruction set: no operation is fused, approximated or done in another order.
+// Cells all of which a disc covers, or none, take less: those that stand together in the arrays should be
+// alike.
 
 }  // namespace helical

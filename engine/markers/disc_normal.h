@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "engine/markers/disc_kernels.h"
 
@@ -11,7 +12,7 @@ inline constexpr float kLeastScale = 0.7F;    ///< levels: quantisation and what
 /// Squared levels: no fit is believed to scatter by less than half of that.
 inline constexpr double kLeastVariance = 0.25 * kLeastScale * kLeastScale;
 
-/// Normal matrix of the first `kSize` parameters; sumDisc and sumCutDisc fill the lower triangle.
+/// Normal matrix of the first `kSize` parameters, of which sums have the lower triangle.
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> normalOf(const DiscSums& sums) {
   Eigen::Matrix<double, kSize, kSize> normal;
@@ -20,6 +21,50 @@ Eigen::Matrix<double, kSize, kSize> normalOf(const DiscSums& sums) {
       normal(a, b) = normal(b, a) = sums.normal[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
   return normal;
 }
+
+/// Solves normal equations: a root-free Cholesky decomposition without pivoting, which unknowns that hardly
+/// differ in scale and a size known beforehand do not need. What the equations say nothing of stays zero.
+template <int kSize>
+class NormalSolver {
+ public:
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+
+  explicit NormalSolver(const Eigen::Matrix<double, kSize, kSize>& normal) {
+    constexpr double kNothing = 1e-12;  // of the unknown's own information
+    for (int k = 0; k < kSize; ++k) {
+      double left = normal(k, k);
+      for (int j = 0; j < k; ++j) {
+        double product = normal(k, j);
+        for (int i = 0; i < j; ++i) product -= scaled_(k, i) * lower_(j, i);
+        scaled_(k, j) = product;
+        lower_(k, j) = product * inverse_[j];
+        left -= product * lower_(k, j);
+      }
+      inverse_[k] = left > kNothing * normal(k, k) ? 1.0 / left : 0.0;
+    }
+  }
+
+  Vector solve(Vector x) const {
+    for (int k = 0; k < kSize; ++k)
+      for (int j = 0; j < k; ++j) x[k] -= lower_(k, j) * x[j];
+    for (int k = kSize - 1; k >= 0; --k) {
+      x[k] *= inverse_[k];
+      for (int j = k + 1; j < kSize; ++j) x[k] -= lower_(j, k) * x[j];
+    }
+    return x;
+  }
+
+  /// Inverse of the matrix, of its first two unknowns.
+  Eigen::Matrix2d firstTwo() const {
+    Eigen::Matrix2d inverse;
+    for (int k = 0; k < 2; ++k) inverse.col(k) = solve(Vector::Unit(k)).template head<2>();
+    return 0.5 * (inverse + inverse.transpose());
+  }
+
+ private:
+  Eigen::Matrix<double, kSize, kSize> lower_, scaled_;  ///< the same, with the diagonal multiplied in
+  Vector inverse_;                                      ///< of the diagonal
+};
 
 /// Information about the light along the view, which is zero as far as anybody knows: under flat light its
 /// direction shows nowhere.

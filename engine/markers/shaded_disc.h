@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <optional>
 
 #include "engine/markers/ball_outline.h"
 #include "engine/markers/ball_window.h"
@@ -15,8 +15,6 @@ namespace helical {
 /// the fit. Cells from the window's corner on. Repeats bit for bit. No allocation.
 class ShadedDisc {
  public:
-  using Parameters = std::array<float, kDiscParameters>;
-
   struct Quality {
     Eigen::Matrix2d covariance =
         Eigen::Matrix2d::Identity();  ///< of the centre, by the scatter of the residuals
@@ -25,7 +23,7 @@ class ShadedDisc {
 
   explicit ShadedDisc(BallWindow& window) : window_(window) {}
 
-  const Parameters& parameters() const { return p_; }
+  const DiscValues& parameters() const { return p_; }
   double radius() const { return p_[kDiscRadius]; }
   Eigen::Vector2d centre() const { return {p_[kDiscX], p_[kDiscY]}; }
   /// Of the ball where it faces the camera, over what is around it.
@@ -35,7 +33,7 @@ class ShadedDisc {
 
   /// A flat disc there, of the colour alone.
   void start(const OutlineCircle& circle);
-  void start(const Parameters& parameters) { p_ = parameters; }
+  void start(const DiscValues& parameters);
   /// Takes the brightness in, of cells where it is even; false if too few of the outline are.
   bool startBrightness();
   /// To the least squares near to where it stands; false if there are none.
@@ -44,27 +42,43 @@ class ShadedDisc {
   void leaveOutHidden();
 
   Quality quality();
+  /// Standard deviation of the colour's residuals around the disc.
+  double noise();
   /// Whether the residuals are noise.
   bool fitsEverywhere();
-  /// After that, chi-square of two degrees of freedom: what a motion of the ball left on both sides of its
-  /// outline.
+  /// Chi-square of two degrees of freedom: what a motion of the ball left on both sides of its outline.
   double motionInResiduals();
   /// Of the disc, not marked and not the neighbour's.
   double seenCells() const;
 
  private:
-  struct System;
+  /// The unknowns: those of the model, and of the brightness its level over that of the colour, and the level
+  /// around it.
+  static constexpr int kRatio = kDiscParameters, kSecondAround = kRatio + 1, kUnknowns = kSecondAround + 1;
 
-  System linearise();
+  /// The normal equations at the current parameters.
+  struct System {
+    Eigen::Matrix<double, kUnknowns, kUnknowns> normal;
+    Eigen::Matrix<double, kUnknowns, 1> gradient;
+    double count = 0.0;  ///< of the values
+    double squares = 0.0;
+  };
+
+  bool hasBrightness() const { return brightness_weight_ > 0.0; }
+  int unknowns() const { return hasBrightness() ? kUnknowns : kDiscParameters; }
+  /// With the cells' residuals at the current parameters.
+  const System& system();
+  void addBrightness(const DiscSums& sums);
+  Eigen::Matrix<double, kUnknowns, 1> step();
   void levelBrightness();
-  void leaveOutUneven(float limit);
-  Parameters brightnessParameters() const;
 
   BallWindow& window_;
-  Parameters p_{};
-  float brightness_over_colour_ = 0.0F;  ///< of the ball's light
-  float brightness_around_ = 0.0F;
+  DiscValues p_{};
+  SecondPicture brightness_;
   double brightness_weight_ = 0.0;  ///< of a cell's brightness, over that of its colour; 0: not fitted
+  System system_;
+  bool is_current_ = false;  ///< the system
+  std::optional<double> noise_;
 };
 
 }  // namespace helical

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/markers/ball_window.h"
-#include "engine/markers/cut_disc.h"
+#include "engine/markers/cell_scatter.h"
 #include "engine/markers/disc_descent.h"
 #include "engine/markers/disc_normal.h"
 
@@ -32,7 +31,7 @@ double distanceToWay(double x, double y, const Eigen::Vector2d& half) {
 
 }  // namespace
 
-SmearFit::SmearFit() : cells_(std::make_unique<DiscCells>()), sorted_(kDiscCells) {}
+SmearFit::SmearFit() : cells_(std::make_unique<DiscCells>()), room_(kDiscCells) {}
 
 bool SmearFit::readAlong(const CellGrid& grid, const Eigen::Vector3d& axis, const SmearStart& start) {
   const double length = start.half.norm(), reach = start.radius + kReach;
@@ -82,31 +81,21 @@ SmearedDisc SmearFit::startingFrom(const SmearStart& start) const {
   return disc;
 }
 
-double SmearFit::noiseAround() {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < real_count_; ++i)
-    if (cells_->cover[i] == 0.0F) sorted_[count++] = std::abs(cells_->residual[i]);
-  if (count == 0) return double{kLeastScale};
-  return std::max(double{kLeastScale}, 1.4826 * static_cast<double>(medianOf({sorted_.data(), count})));
-}
-
-double SmearFit::squaresAtRest(const std::array<float, kDiscParameters>& disc) {
-  evaluateDisc(disc, hasShadow(disc), *cells_);
+double SmearFit::squaresAtRest(const DiscValues& disc) {
   DiscSums sums;
-  sumDisc(*cells_, sums);
+  measureDisc(disc, *cells_, sums);
   return sums.squares;
 }
 
 std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vector3d& axis,
-                                         const SmearStart& start,
-                                         const std::array<float, kDiscParameters>* at_rest,
+                                         const SmearStart& start, const DiscValues* at_rest,
                                          double most_excess) {
   if (!readAlong(grid, axis, start)) return std::nullopt;
   DiscCells& cells = *cells_;
   SmearedDisc smeared = startingFrom(start);
   double squares_at_rest = std::numeric_limits<double>::infinity();
   if (at_rest != nullptr) {
-    std::array<float, kDiscParameters> disc = *at_rest;
+    DiscValues disc = *at_rest;
     disc[kDiscX] -= static_cast<float>(left_);
     disc[kDiscY] -= static_cast<float>(top_);
     squares_at_rest = squaresAtRest(disc);
@@ -118,8 +107,8 @@ std::optional<SmearedBall> SmearFit::fit(const CellGrid& grid, const Eigen::Vect
     }
   }
   smeared.descend(cells, kFirstSteps);
-  smeared.evaluate(cells);
-  const double variance = std::pow(noiseAround(), 2);
+  smeared.measure(cells);
+  const double variance = std::pow(noiseAround(cells, room_), 2);
   if (smeared.squares + kSoonGained * variance > squares_at_rest ||
       smeared.squares / variance - smeared.count > most_excess + kStillToFall * smeared.count)
     return std::nullopt;
@@ -138,7 +127,7 @@ std::optional<SmearedBall> SmearFit::ballOf(const SmearedDisc& smeared, const Sm
   ball.radius = smeared.disc[kDiscRadius];
   ball.contrast =
       smeared.disc[kDiscAmbient] + std::max(0.0F, smeared.disc[kDiscLightZ]) - smeared.disc[kDiscAround];
-  ball.noise = noiseAround();
+  ball.noise = noiseAround(cells, room_);
   const double variance = sums.squares / std::max(1.0, sums.count - double{kSmearParameters});
   ball.misfit = variance / (ball.noise * ball.noise);
   ball.excess = sums.squares / (ball.noise * ball.noise) - sums.count;

@@ -44,13 +44,12 @@ class SmearFit {
   /// rest, in cells of the image. Nothing if what comes out is no ball on its way, or too large, or explains
   /// no more than the ball at rest, or soon seems to come out at more than `most_excess`.
   std::optional<SmearedBall> fit(const CellGrid& grid, const Eigen::Vector3d& axis, const SmearStart& start,
-                                 const std::array<float, kDiscParameters>* at_rest, double most_excess);
+                                 const DiscValues* at_rest, double most_excess);
 
  private:
   bool readAlong(const CellGrid& grid, const Eigen::Vector3d& axis, const SmearStart& start);
   SmearedDisc startingFrom(const SmearStart& start) const;
-  double noiseAround();
-  double squaresAtRest(const std::array<float, kDiscParameters>& disc);
+  double squaresAtRest(const DiscValues& disc);
   std::optional<SmearedBall> ballOf(const SmearedDisc& smeared, const SmearStart& start,
                                     double squares_at_rest);
 
@@ -58,7 +57,7 @@ class SmearFit {
   int top_ = 0;
   std::size_t real_count_ = 0;  ///< of the cells, without what only fills up
   std::unique_ptr<DiscCells> cells_;
-  std::vector<float> sorted_;
+  std::vector<float> room_;  ///< for medians
 };
 
 }  // namespace helical

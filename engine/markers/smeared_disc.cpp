@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/markers/cut_disc.h"
 #include "engine/markers/disc_descent.h"
 
 namespace helical {
@@ -27,14 +26,9 @@ void SmearedDisc::descend(DiscCells& cells, int steps) {
   descendTo(*this, cells, steps);
 }
 
-void SmearedDisc::evaluate(DiscCells& cells) const {
-  smearDisc(disc, hasShadow(disc), motion, cells);
-}
-
 DiscSums SmearedDisc::measure(DiscCells& cells) const {
-  evaluate(cells);
   DiscSums sums;
-  sumSmearedDisc(cells, sums);
+  measureSmearedDisc(disc, motion, cells, sums);
   return sums;
 }
 

@@ -12,7 +12,7 @@ namespace helical {
 struct SmearedDisc {
   static constexpr int kSize = kSmearParameters;
 
-  std::array<float, kDiscParameters> disc{};  ///< in the middle of its way
+  DiscValues disc{};  ///< in the middle of its way
   DiscMotion motion;
   double squares = 0.0;  ///< of the residuals over the given cells
   double count = 0.0;    ///< of the given cells
@@ -20,9 +20,7 @@ struct SmearedDisc {
   double halfLength() const;
   /// To the least squares near to where it stands, with as many moments as its way may take.
   void descend(DiscCells& cells, int steps);
-  /// Fills the cells' residuals, slopes and cover.
-  void evaluate(DiscCells& cells) const;
-  /// The same, and their sums.
+  /// Fills the cells' residuals and cover.
   DiscSums measure(DiscCells& cells) const;
   SmearedDisc moved(const Eigen::Matrix<double, kSize, 1>& change) const;
 };

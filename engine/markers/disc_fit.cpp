@@ -28,14 +28,17 @@ constexpr double kOutlineSigma = 0.15;  ///< cells, per axis: of a circle throug
 /// Of a disc with an edge before it: the same with room for the few cells that the noise is known by, and
 /// the share that must be seen. What is no such disc leaves ten times as much.
 constexpr double kCutTail = 3.0, kLeastSeen = 0.3;
-/// Elongation: from the first on, what looks like a disc may have moved; from the second on, what is no disc
-/// may be smeared; from the third on, it is not asked whether it is a disc, which noise makes longish by no
-/// more.
-constexpr double kMaybeSmeared = 1.06, kLeastSmear = 1.07, kSurelySmeared = 1.25;
-constexpr double kMaybeMoved = 4.5;  ///< chi-square of what a motion leaves on both sides of the outline
+/// Elongation: from the first on, what is no disc may be smeared; from the second on, it is not asked whether
+/// it is a disc, which noise makes longish by no more.
+constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25;
+constexpr double kMaybeMoved = 4.5;  ///< chi-square that a motion should gain
+/// Of what a disc at rest leaves beyond noise, the share that a motion should explain, by the score test: of
+/// hidden balls it is up to 0.03, of small ones before noise rarely over 0.1; of smeared ones it is over 0.1,
+/// rarely under 0.07.
+constexpr double kMaybeMotion = 0.04;
+constexpr double kSurelyCut = 0.3;   ///< excess a cell: of what is hidden and one-sided, no motion is tried
 constexpr double kSurelyLong = 2.8;  ///< elongation: nothing hides so much of a ball that is still found
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr double kRatherCut = 8.0;    ///< chi-square: what is as well hidden as moving is taken for hidden
 constexpr double kSurelyOne = 1.4;    ///< misfit of a smeared ball that is no pair
 constexpr double kSurelyMoved = 9.0;  ///< chi-square over a ball at rest
 /// Cells of a region: fewer say too little of which of its sides are alike.
@@ -148,13 +151,18 @@ std::optional<Disc> DiscFit::fitColour(const CellGrid& grid) {
   if (has_sides && smear.elongation > kLeastSmear) smear_ = smear.covariance;
   const bool is_smeared = has_sides && smear.isOver(kSurelySmeared);
   disc_.start(window_.binary);
-  if (!is_smeared && disc_.descend(kSteps) && isPlausible() && disc_.fitsEverywhere()) {
-    if (!window_.neighbour && mayHaveMoved(smear))
-      if (const auto ball = fitMoving(grid, smear, &disc_.parameters(), kAny)) return discOf(*ball);
-    if (const auto disc = result()) return disc;
+  double motion = kAny;  // share of what is left at rest; not known
+  if (!is_smeared && disc_.descend(kSteps) && isPlausible()) {
+    const double gain = window_.neighbour ? 0.0 : disc_.gainOfMotion();
+    motion = gain / std::max(kMaybeMoved / kMaybeMotion, disc_.excess());
+    if (disc_.fitsEverywhere()) {
+      if (gain > kMaybeMoved)
+        if (const auto ball = fitMoving(grid, smear, &disc_.parameters(), kAny)) return discOf(*ball);
+      if (const auto disc = result()) return disc;
+    }
   }
   if (!window_.neighbour)
-    if (const auto disc = fitMovingOrCut(grid, smear)) return disc;
+    if (const auto disc = fitMovingOrCut(grid, smear, motion)) return disc;
   if (has_sides && smear.isOver(kLeastSmear)) return std::nullopt;
   disc_.start(window_.neighbour ? window_.binary : outlineOfRest());
   for (int round = 0; round < kRounds; ++round) {
@@ -171,18 +179,19 @@ OutlineCircle DiscFit::outlineOfRest() const {
       .value_or(window_.binary);
 }
 
-bool DiscFit::mayHaveMoved(const Smear& smear) {
-  return smear.elongation > kMaybeSmeared || disc_.motionInResiduals() > kMaybeMoved;
-}
-
-std::optional<Disc> DiscFit::fitMovingOrCut(const CellGrid& grid, const Smear& smear) {
+std::optional<Disc> DiscFit::fitMovingOrCut(const CellGrid& grid, const Smear& smear, double motion) {
   const bool is_smeared = window_.region.area >= kFewestSmeared && smear.isOver(kLeastSmear);
+  const bool is_large = window_.binary.radius >= kLarge;
+  const bool may_move = is_smeared || motion > kMaybeMotion;
+  if (is_large && (!may_move || smear.one_sided)) return std::nullopt;
   // Of a large ball only one that is seen nearly whole is believed, which no edge hides a part of.
   std::optional<Disc> cut;
   double excess = kAny;
-  if (window_.binary.radius < kLarge && !is_smeared && smear.elongation < kSurelyLong) cut = fitCut(excess);
-  const auto ball = fitMoving(grid, smear, nullptr, cut ? excess - kRatherCut : kAny);
-  return ball && (!cut || ball->excess < excess - kRatherCut) ? discOf(*ball) : cut;
+  if (!is_large && !is_smeared && smear.elongation < kSurelyLong) cut = fitCut(excess);
+  const bool is_cut = !cut || excess < kSurelyCut * static_cast<double>(window_.real_count);
+  if (!may_move && smear.one_sided && is_cut) return cut;
+  const auto ball = fitMoving(grid, smear, nullptr, excess);
+  return ball && ball->excess < excess ? discOf(*ball) : cut;
 }
 
 std::optional<Disc> DiscFit::fitCut(double& excess) {
@@ -194,9 +203,9 @@ std::optional<Disc> DiscFit::fitCut(double& excess) {
   const double noise = noiseAround(cells, window_.room), squares = cut.squares / (noise * noise);
   disc_.start(cut.disc);
   const auto disc = believed(covariance, seen);
-  excess = squares - cut.count;
   if (squares > kCutTail * cut.count || !isPlausible() || !disc || disc->seen_share < kLeastSeen)
     return std::nullopt;
+  excess = squares - cut.count;
   disc_.leaveOutHidden();
   return disc;
 }

@@ -56,13 +56,12 @@ class DiscFit {
   std::optional<Disc> fitColour(const CellGrid& grid);
   std::optional<Disc> withBrightness(const Disc& by_colour);
   Disc fitPart(const CellGrid& grid, Region part, const OutlineCircle& mine, const OutlineCircle& other);
-  std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear);
+  std::optional<Disc> fitMovingOrCut(const CellGrid& grid, const Smear& smear, double motion);
   std::optional<SmearedBall> fitMoving(const CellGrid& grid, const Smear& smear, const DiscValues* at_rest,
                                        double most_excess);
   std::optional<Disc> fitCut(double& excess);
   OutlineCircle outlineOfRest() const;
   Smear smearOfRegion() const;
-  bool mayHaveMoved(const Smear& smear);
   bool isOneMoving(const CellGrid& grid);
   std::optional<Disc> result();
   /// The disc at the current parameters, with the cells of it that are seen; nothing if it is doubtful or its

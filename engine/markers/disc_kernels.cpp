@@ -86,6 +86,47 @@ void measureBoth(const DiscValues& p, const SecondPicture& picture, DiscCells& f
   second_sums.store(second_totals);
 }
 
+constexpr float kSpreadStep = 0.5F;  ///< cells
+
+/// Second derivatives by the disc's place, of the cells around its outline.
+HWY_INLINE void spreadSlopes(const DiscTerms& disc, Floats dx, Floats dy, Floats* slope) {
+  const Floats apart = all(kSpreadStep), over_twice = all(0.5F * 0.5F / kSpreadStep);
+  const auto at = [&](Floats x, Floats y) HWY_ATTR { return shaded(litCell(disc, x, y), disc.around); };
+  const ShadedCell right = at(dx - apart, dy), left = at(dx + apart, dy), below = at(dx, dy - apart),
+                   above = at(dx, dy + apart);
+  const Floats inner = positive(disc.inside - apart);
+  const auto is_rim = hn::Ge(dx * dx + dy * dy, inner * inner);
+  const auto slopeOf = [&](Floats more, Floats less)
+                           HWY_ATTR { return hn::IfThenElseZero(is_rim, over_twice * (more - less)); };
+  slope[kSpreadXX] = slopeOf(right.slope[kDiscX], left.slope[kDiscX]);
+  slope[kSpreadXY] = all(2.0F) * slopeOf(right.slope[kDiscY], left.slope[kDiscY]);
+  slope[kSpreadYY] = slopeOf(below.slope[kDiscY], above.slope[kDiscY]);
+}
+
+void measureSpread(const DiscValues& p, DiscCells& cells, DiscSums& totals) {
+  const Tag d;
+  const DiscTerms disc(p);
+  const Floats zero = all(0.0F), inner = positive(disc.inside - all(kSpreadStep)), inside = inner * inner;
+  const float outer = p[kDiscRadius] + kReach + kSpreadStep;
+  const Floats outside = all(outer * outer);
+  Sums<kSpreadParameters> sums;
+  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
+    const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y,
+                 given = hn::Load(d, &cells.given[i]), d2 = dx * dx + dy * dy;
+    if (hn::AllTrue(d, hn::Gt(d2, outside))) {
+      sums.addAround(i, storeResidual(i, disc.around, zero, cells), given);
+      continue;
+    }
+    const ShadedCell cell = shaded(litCell(disc, dx, dy), disc.around);
+    Floats slope[kSpreadParameters] = {cell.slope[0], cell.slope[1], cell.slope[2], cell.slope[3],
+                                       cell.slope[4], cell.slope[5], cell.slope[6], cell.slope[7],
+                                       zero,          zero,          zero};
+    if (!hn::AllTrue(d, hn::Lt(d2, inside))) spreadSlopes(disc, dx, dy, slope);
+    sums.add(i, slope, storeResidual(i, disc.around + cell.above, cell.slope[kDiscAmbient], cells), given);
+  }
+  sums.store(totals);
+}
+
 void measureSmeared(const DiscValues& p, const DiscMotion& motion, DiscCells& cells, DiscSums& totals) {
   const Tag d;
   const DiscTerms disc(p);
@@ -149,6 +190,7 @@ HWY_EXPORT(measureAll);
 HWY_EXPORT(measureBoth);
 HWY_EXPORT(measureCut);
 HWY_EXPORT(measureSmeared);
+HWY_EXPORT(measureSpread);
 
 void measureDisc(const DiscValues& disc, DiscCells& cells, DiscSums& sums) {
   HWY_DYNAMIC_DISPATCH(measureAll)(disc, cells, sums);
@@ -161,6 +203,10 @@ void measureTwo(const DiscValues& disc, const SecondPicture& picture, DiscCells&
 
 void measureCutDisc(const DiscValues& disc, const CutEdge& edge, DiscCells& cells, DiscSums& sums) {
   HWY_DYNAMIC_DISPATCH(measureCut)(disc, edge, cells, sums);
+}
+
+void measureSpreadDisc(const DiscValues& disc, DiscCells& cells, DiscSums& sums) {
+  HWY_DYNAMIC_DISPATCH(measureSpread)(disc, cells, sums);
 }
 
 void measureSmearedDisc(const DiscValues& disc, const DiscMotion& motion, DiscCells& cells, DiscSums& sums) {

@@ -6,7 +6,7 @@
 namespace helical {
 
 /// The parameters of DiscFit's model, in the order of its slopes; then those of an edge before the ball,
-/// or of its motion.
+/// of its motion, or of the moments of a short one.
 enum DiscParameter {
   kDiscX,
   kDiscY,
@@ -23,7 +23,11 @@ enum DiscParameter {
   kCutParameters,
   kSmearHalfX = kDiscParameters,
   kSmearHalfY,
-  kSmearParameters
+  kSmearParameters,
+  kSpreadXX = kDiscParameters,
+  kSpreadXY,
+  kSpreadYY,
+  kSpreadParameters
 };
 
 inline constexpr std::size_t kDiscCells = 8192;  ///< room for this many cells
@@ -85,6 +89,9 @@ void measureTwo(const DiscValues& disc, const SecondPicture& picture, DiscCells&
                 DiscSums& first_sums, DiscSums& second_sums);
 /// With an edge before the disc; `cover` is what is seen.
 void measureCutDisc(const DiscValues& disc, const CutEdge& edge, DiscCells& cells, DiscSums& sums);
+/// The same as measureDisc, and the slopes by what a short motion would add: by second moments of the places
+/// where the disc's centre was.
+void measureSpreadDisc(const DiscValues& disc, DiscCells& cells, DiscSums& sums);
 /// Of a disc that moved.
 void measureSmearedDisc(const DiscValues& disc, const DiscMotion& motion, DiscCells& cells, DiscSums& sums);
 

@@ -12,7 +12,15 @@ namespace {
 
 constexpr double kLongTail = 1.8;  ///< mean square over that of a normal distribution: something does not fit
 constexpr double kSettled = 3e-3;  ///< cells: a smaller step is the last
-constexpr double kRim = 1.5;       ///< cells on either side of the outline, where a motion shows
+/// Of motions, an eighth of a turn apart.
+constexpr std::array<std::array<double, 2>, 8> kAxes{{{1.0, 0.0},
+                                                      {0.9238795325112867, 0.3826834323650898},
+                                                      {0.7071067811865476, 0.7071067811865476},
+                                                      {0.3826834323650898, 0.9238795325112867},
+                                                      {0.0, 1.0},
+                                                      {-0.3826834323650898, 0.9238795325112867},
+                                                      {-0.7071067811865476, 0.7071067811865476},
+                                                      {-0.9238795325112867, 0.3826834323650898}}};
 
 constexpr double kUneven = 3.0;       ///< scatter of the brightness over that of the colour that is too much
 constexpr float kOutside = 3.5F;      ///< scales: what lies farther off is no noise
@@ -25,13 +33,24 @@ double ShadedDisc::contrast() const {
 }
 
 void ShadedDisc::start(const OutlineCircle& circle) {
-  const ValueWindow values = window_.values();
+  // Means over the middle of the disc, and beyond it.
+  const DiscCells& cells = *window_.colour;
+  const auto x = static_cast<float>(circle.centre.x), y = static_cast<float>(circle.centre.y),
+             radius = static_cast<float>(circle.radius);
+  float inside = 0.0F, outside = 0.0F, inside_count = 0.0F, outside_count = 0.0F;
+  for (std::size_t i = 0; i < cells.count; ++i) {
+    const float dx = cells.x[i] - x, dy = cells.y[i] - y, d2 = dx * dx + dy * dy;
+    const float in = d2 < 0.4F * radius * radius ? cells.given[i] : 0.0F,
+                out = d2 > (radius + 1.0F) * (radius + 1.0F) ? cells.given[i] : 0.0F;
+    inside += in * cells.value[i], inside_count += in;
+    outside += out * cells.value[i], outside_count += out;
+  }
   DiscValues flat{};
-  flat[kDiscX] = static_cast<float>(circle.centre.x);
-  flat[kDiscY] = static_cast<float>(circle.centre.y);
-  flat[kDiscRadius] = static_cast<float>(circle.radius);
-  flat[kDiscAmbient] = values.level + values.contrast;
-  flat[kDiscAround] = values.level - values.contrast;
+  flat[kDiscX] = x;
+  flat[kDiscY] = y;
+  flat[kDiscRadius] = radius;
+  flat[kDiscAmbient] = inside / std::max(1.0F, inside_count);
+  flat[kDiscAround] = outside / std::max(1.0F, outside_count);
   start(flat);
 }
 
@@ -161,21 +180,39 @@ bool ShadedDisc::fitsEverywhere() {
   return system_.squares < kLongTail * scale * scale * system_.count;
 }
 
-double ShadedDisc::motionInResiduals() {
-  const DiscCells& cells = *window_.colour;
-  const double x = p_[kDiscX], y = p_[kDiscY], radius = p_[kDiscRadius], scale = noise();
-  const double least = std::max(0.0, radius - kRim), most = radius + kRim;
-  double by_cosine = 0.0, by_sine = 0.0, weights = 0.0;
-  for (std::size_t i = 0; i < window_.real_count; ++i) {
-    const double dx = cells.x[i] - x, dy = cells.y[i] - y, d2 = dx * dx + dy * dy;
-    if (d2 <= least * least || d2 >= most * most) continue;
-    const double beyond = std::sqrt(d2) - radius,
-                 value = beyond * static_cast<double>(cells.residual[i]) / d2;
-    by_cosine += value * (dx * dx - dy * dy);
-    by_sine += value * 2.0 * dx * dy;
-    weights += beyond * beyond;
+double ShadedDisc::excess() {
+  const double scale = noise();
+  return system_.squares / (scale * scale) - system_.count;
+}
+
+double ShadedDisc::gainOfMotion() {
+  constexpr int kMoments = kSpreadParameters - kDiscParameters;
+  const double scale = noise();
+  DiscSums sums;
+  measureSpreadDisc(p_, *window_.colour, sums);
+  const auto all = normalOf<kSpreadParameters>(sums);
+  const NormalSolver<kDiscParameters> rest(normalWithPrior<kDiscParameters>(sums, p_[kDiscAmbient]));
+  // What the disc at rest cannot explain of the moments' slopes.
+  Eigen::Vector3d gradient;
+  Eigen::Matrix3d information;
+  for (int k = 0; k < kMoments; ++k) {
+    const Eigen::Matrix<double, kDiscParameters, 1> by_rest =
+        rest.solve(all.col(kDiscParameters + k).head<kDiscParameters>());
+    const auto at = static_cast<std::size_t>(kDiscParameters + k);
+    gradient[k] = sums.gradient[at];
+    for (int i = 0; i < kDiscParameters; ++i)
+      gradient[k] -= by_rest[i] * sums.gradient[static_cast<std::size_t>(i)];
+    for (int j = 0; j < kMoments; ++j)
+      information(j, k) = all(kDiscParameters + j, kDiscParameters + k) -
+                          all.col(kDiscParameters + j).head<kDiscParameters>().dot(by_rest);
   }
-  return (by_cosine * by_cosine + by_sine * by_sine) / (0.5 * scale * scale * std::max(1e-9, weights));
+  double most = 0.0;
+  for (const auto& [x, y] : kAxes) {
+    const Eigen::Vector3d moments(x * x, x * y, y * y);
+    const double towards = moments.dot(gradient), weight = moments.dot(information * moments);
+    if (towards > 0.0 && weight > 0.0) most = std::max(most, towards * towards / weight);
+  }
+  return most / (scale * scale);
 }
 
 void ShadedDisc::leaveOutHidden() {

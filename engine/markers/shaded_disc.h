@@ -46,8 +46,11 @@ class ShadedDisc {
   double noise();
   /// Whether the residuals are noise.
   bool fitsEverywhere();
-  /// Chi-square of two degrees of freedom: what a motion of the ball left on both sides of its outline.
-  double motionInResiduals();
+  /// Chi-square of the residuals over what is expected of noise alone.
+  double excess();
+  /// About how much chi-square a motion of the ball would take off what it leaves at rest, by the score test:
+  /// by the slopes at rest, with all other unknowns free, in the direction where it is most.
+  double gainOfMotion();
   /// Of the disc, not marked and not the neighbour's.
   double seenCells() const;
 

@@ -20,6 +20,7 @@ void BackgroundModel::set(const ImageView& image) {
   const auto row_bytes = static_cast<std::size_t>(rowBytes(image));
   for (int y = 0; y < image.height; ++y)
     std::copy_n(image.row(y), row_bytes, mean_.data() + static_cast<std::size_t>(y) * row_bytes);
+  ranges_.measure(CellGrid(view()));
   state_ = State::kReady;
 }
 
@@ -47,11 +48,18 @@ void BackgroundModel::adapt(const ImageView& image, int rows, int most, const Ke
     next_row_ = (next_row_ + 1) % height_;
     if (y < kept_out.top || y > kept_out.bottom) {
       move(y, 0, row_bytes);
-      continue;
+    } else {
+      move(y, 0, bytes * std::clamp(kept_out.left, 0, width_));
+      move(y, bytes * std::clamp(kept_out.right + 1, 0, width_), row_bytes);
     }
-    move(y, 0, bytes * std::clamp(kept_out.left, 0, width_));
-    move(y, bytes * std::clamp(kept_out.right + 1, 0, width_), row_bytes);
+    followRow(y);
   }
+}
+
+void BackgroundModel::followRow(int y) {
+  const CellGrid grid(view());
+  const int rows_of_cell = grid.hasQuads() ? 2 : 1;
+  if (y / rows_of_cell < grid.height) ranges_.follow(grid, y / rows_of_cell);
 }
 
 ImageView BackgroundModel::view() const {
@@ -72,6 +80,7 @@ void BackgroundModel::resize(const ImageView& image) {
   const auto bytes = static_cast<std::size_t>(rowBytes(image)) * static_cast<std::size_t>(height_);
   mean_.resize(bytes);
   sums_.resize(bytes);
+  ranges_.resize(CellGrid(view()));
 }
 
 void BackgroundModel::accumulate(const ImageView& image) {
@@ -89,6 +98,7 @@ void BackgroundModel::average() {
   const auto n = static_cast<std::uint32_t>(taken_);
   std::transform(sums_.begin(), sums_.end(), mean_.begin(),
                  [n](std::uint32_t sum) { return static_cast<std::uint8_t>((sum + n / 2) / n); });
+  ranges_.measure(CellGrid(view()));
   state_ = State::kReady;
 }
 

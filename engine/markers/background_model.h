@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/cameras/frame.h"
+#include "engine/markers/background_ranges.h"
 
 namespace helical {
 
@@ -34,12 +35,15 @@ class BackgroundModel {
   State state() const { return state_; }
   /// Valid in state kReady; rows are packed.
   ImageView view() const;
+  /// Of the same image.
+  const BackgroundRanges& ranges() const { return ranges_; }
 
  private:
   void resize(const ImageView& image);
   bool fits(const ImageView& image) const;
   void accumulate(const ImageView& image);
   void average();
+  void followRow(int y);
 
   int frames_;
   State state_ = State::kTaking;
@@ -50,6 +54,7 @@ class BackgroundModel {
   PixelFormat format_ = PixelFormat::kBgr8;
   std::vector<std::uint32_t> sums_;
   std::vector<std::uint8_t> mean_;
+  BackgroundRanges ranges_;
 };
 
 /// Bytes of a row's pixels.

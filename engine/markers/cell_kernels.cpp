@@ -16,6 +16,7 @@
 #include "engine/markers/cell_loading.inc"
 #include "engine/markers/colour_tests.inc"
 #include "engine/markers/cell_refiners.inc"
+#include "engine/markers/cell_boxes.inc"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -29,6 +30,9 @@ constexpr int kFetched = 64 * (kHasQuads<L> ? 2 : 1) * kBytesPerCell<L>;
 constexpr int kBytesAhead = 4096;
 /// Words with candidates whose surroundings are fetched; where there are more, the frame is read as a whole.
 constexpr int kFetchedAround = 256;
+/// Words that are full, yet not of the box's colours, before the box is moved to one: that takes longer than
+/// classifying a few.
+constexpr int kBeforeMove = 8;
 
 /// Whether these candidates may be part of a run of `length`, here or over an end of the word.
 HWY_INLINE bool mayHoldRun(std::uint64_t bits, int length) {
@@ -40,24 +44,29 @@ HWY_INLINE bool mayHoldRun(std::uint64_t bits, int length) {
 
 struct FindInRows {
   const CellGrid& grid;
-  const CellGrid* background;
+  const BackgroundCells* background;
   const ScannedRows& rows;
   int first_word, end_word, most;
   CellWord* found;
-  int count;
+  int count = 0;
+  bool is_sparse = true;
 
   template <CellLayout L, class Refiner>
   HWY_INLINE void operator()(const Refiner& refiner) {
     CellWord* out = found;
+    int read = 0;
     const int rows_ahead = 1 + kBytesAhead / (kFetched<L> * (end_word - first_word));
     int ahead = rows.first;
     for (int i = 0; i < rows_ahead; ++i, ahead = rows.after(ahead)) fetchRow<L>(ahead);
     for (int y = rows.first; y <= rows.end; y = rows.after(y)) {
       out = findInRow<L>(refiner, y, ahead, out);
       ahead = rows.after(ahead);
-      if (out - found > most || y == rows.last) break;
+      read += end_word - first_word;
+      count = static_cast<int>(out - found);
+      // So many of the first rows foretell the rest.
+      is_sparse = count <= most / 4 || (count <= most && 2 * count <= read);
+      if (!is_sparse || y == rows.last) break;
     }
-    count = static_cast<int>(out - found);
   }
 
   template <CellLayout L>
@@ -79,13 +88,13 @@ struct FindInRows {
   }
 
   /// What will be read of this word when the rows are done: as far as a square through it reaches, and the
-  /// background. Memory answers while the other rows are tested.
+  /// background where that must be known. Memory answers while the other rows are tested.
   template <CellLayout L>
-  HWY_INLINE void fetchAround(int y, int w) const {
+  HWY_INLINE void fetchAround(int y, int w, bool with_background) const {
     const int first = std::max(0, y - rows.step + 1), last = std::min(grid.height - 1, y + rows.step - 1);
     for (int row = first; row <= last; ++row) {
       if (row != y) fetchWordOf<L>(grid, row, w);
-      if (background != nullptr) fetchWordOf<L>(*background, row, w);
+      if (with_background) fetchWordOf<L>(*background, row, w);
     }
   }
 
@@ -104,7 +113,7 @@ struct FindInRows {
       if (w < inner_words && HWY_LIKELY(refiner.holdsNone(place))) continue;
       const std::uint64_t bits = refiner.candidates(place);
       if (!mayHoldRun(bits, rows.step)) continue;
-      if (out - found < kFetchedAround) fetchAround<L>(y, w);
+      if (out - found < kFetchedAround) fetchAround<L>(y, w, refiner.maybeBackground(place, y, w, bits) != 0);
       *out++ = {y, w, bits};
     }
     for (int w = std::max(first_word, whole_words); w < end_word; ++w) {
@@ -116,37 +125,66 @@ struct FindInRows {
   }
 };
 
-int findInRows(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-               const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found) {
-  int count = 0;
-  withRefiner(grid, nullptr, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
-    FindInRows find{grid, background, rows, first_word, end_word, most, found, 0};
+bool findInRows(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
+                const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found,
+                int& count) {
+  bool is_sparse = true;
+  withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
+    FindInRows find{grid, background, rows, first_word, end_word, most, found};
     find.template operator()<L>(refiner);
     count = find.count;
+    is_sparse = find.is_sparse;
   });
-  return count;
+  return is_sparse;
 }
 
-void refineWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule, CellWord* words,
-                 std::size_t count) {
+void refineWords(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
+                 CellWord* words, std::size_t count) {
   withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
     for (std::size_t i = 0; i < count; ++i)
       words[i].bits = refiner.refine(words[i].row, words[i].word, words[i].bits);
   });
 }
 
-void classifySome(const CellGrid& grid, const CellGrid* background, const CellRule& rule, CellWord* words,
-                  std::size_t count) {
+void classifySome(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
+                  CellWord* words, std::size_t count) {
   withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
     for (std::size_t i = 0; i < count; ++i) words[i].bits = refiner.classify(words[i].row, words[i].word);
   });
 }
 
-void classifyAll(const CellGrid& grid, const CellGrid* background, const CellRule& rule, std::uint64_t* words,
-                 std::ptrdiff_t stride) {
+template <CellLayout L, class Refiner>
+HWY_INLINE void classifyRows(const Refiner& refiner, const CellGrid& grid, const ColourClass& colours,
+                             std::uint64_t* words, std::ptrdiff_t stride) {
+  constexpr std::uint64_t kEvery = ~std::uint64_t{0};
+  BoxOfWords<L> box;
+  int outside = 0;
+  for (int y = 0; y < grid.height; ++y)
+    for (int w = 0; w * 64 < grid.width; ++w) {
+      const std::uint8_t* first = grid.row(y) + static_cast<std::ptrdiff_t>(w) * WordCells<L>::kWordBytes;
+      const Place place{first, first + grid.second_row};
+      const bool is_inside = w * 64 + 64 <= grid.width && box.holdsAll(place);
+      std::uint64_t& bits = words[w * stride + y];
+      if (is_inside && refiner.isApart(box.box(), y, w)) {
+        bits = kEvery;
+        continue;
+      }
+      bits = refiner.classifyFull(y, w);
+      if (is_inside || bits != kEvery || ++outside < kBeforeMove) continue;
+      box.moveTo(place, colours.bounds());
+      outside = 0;
+    }
+}
+
+void classifyAll(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
+                 std::uint64_t* words, std::ptrdiff_t stride) {
   withRefiner(grid, background, rule, [&]<CellLayout L>(const auto& refiner) HWY_ATTR {
-    for (int y = 0; y < grid.height; ++y)
-      for (int w = 0; w * 64 < grid.width; ++w) words[w * stride + y] = refiner.classifyFull(y, w);
+    if constexpr (L == CellLayout::kBytes) {
+      for (int y = 0; y < grid.height; ++y)
+        for (int w = 0; w * 64 < grid.width; ++w) words[w * stride + y] = refiner.classifyFull(y, w);
+    } else {
+      classifyRows<L>(refiner, grid, *rule.colours, words, stride);
+    }
   });
 }
 
@@ -167,22 +205,24 @@ HWY_EXPORT(classifySome);
 HWY_EXPORT(classifyAll);
 HWY_EXPORT(nameOfTarget);
 
-int findCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-                   const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found) {
-  return HWY_DYNAMIC_DISPATCH(findInRows)(grid, background, rule, rows, first_word, end_word, most, found);
+bool findCandidates(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
+                    const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found,
+                    int& count) {
+  return HWY_DYNAMIC_DISPATCH(findInRows)(grid, background, rule, rows, first_word, end_word, most, found,
+                                          count);
 }
 
-void refineCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+void refineCandidates(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
                       std::span<CellWord> words) {
   HWY_DYNAMIC_DISPATCH(refineWords)(grid, background, rule, words.data(), words.size());
 }
 
-void classifyWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+void classifyWords(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
                    std::span<CellWord> words) {
   HWY_DYNAMIC_DISPATCH(classifySome)(grid, background, rule, words.data(), words.size());
 }
 
-void classifyGrid(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+void classifyGrid(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
                   std::uint64_t* words, std::ptrdiff_t stride) {
   HWY_DYNAMIC_DISPATCH(classifyAll)(grid, background, rule, words, stride);
 }

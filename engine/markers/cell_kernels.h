@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/markers/background_ranges.h"
 #include "engine/markers/cell_grid.h"
 #include "engine/markers/colour_class.h"
 
@@ -41,23 +42,24 @@ struct ScannedRows {
 
 /// The cells of these rows in words [first_word, end_word) that may be a marker's by themselves: a superset
 /// for colours, exact for brightness. Writes the words whose cells may be part of `rows.step` in a row to
-/// `found` and returns their number; stops after the row with which they become more than `most`, and `found`
-/// has room for that row, too. The next rows, and frame and background around what is found, are fetched into
-/// the cache on the way.
-int findCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
-                   const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found);
+/// `found` and their number to `count`. False: stopped after a row with which they became more than `most`,
+/// or so many of few words that they will be more; `found` has room for that row, too. The next rows, and
+/// frame and background around what is found, are fetched into the cache on the way.
+bool findCandidates(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
+                    const ScannedRows& rows, int first_word, int end_word, int most, CellWord* found,
+                    int& count);
 
 /// Replaces candidate bits by exact ones: cells that the rule takes and that differ from the background, if
 /// there is one, by more than the threshold.
-void refineCandidates(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+void refineCandidates(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
                       std::span<CellWord> words);
 
 /// The same without candidates, for words of which nothing is known.
-void classifyWords(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+void classifyWords(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
                    std::span<CellWord> words);
 
 /// Exact bits of the whole grid: each word's next row behind it, its next word `stride` on.
-void classifyGrid(const CellGrid& grid, const CellGrid* background, const CellRule& rule,
+void classifyGrid(const CellGrid& grid, const BackgroundCells* background, const CellRule& rule,
                   std::uint64_t* words, std::ptrdiff_t stride);
 
 /// The instruction set in use, and those that this machine has, best first, as Highway names them.

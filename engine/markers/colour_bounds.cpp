@@ -136,7 +136,35 @@ void addInner(const ColourClass& colours, const ColourRange& o, ColourBounds& b)
   }
 }
 
+/// Whether every colour of the box meets the inner bounds: the worst corner of each does.
+bool isInside(const ColourBounds& b, const ColourBox& box) {
+  const auto x = static_cast<std::size_t>(otherA(b.special)), y = static_cast<std::size_t>(otherB(b.special));
+  const int least = box.low[b.special], others = std::max(box.high[x], box.high[y]);
+  const int darkest = std::min(box.high[x], box.high[y]);
+  return b.has_inner && others <= least && least >= b.inner_value_low &&
+         box.high[b.special] <= b.inner_value_high && darkest <= b.inner_darkest_at_most.of(least) &&
+         box.high[x] - box.low[y] <= b.inner_a_over_b.of(least - darkest) &&
+         box.high[y] - box.low[x] <= b.inner_b_over_a.of(least - darkest);
+}
+
+ColourBox grown(const ColourBox& box, int by) {
+  ColourBox larger;
+  for (std::size_t i = 0; i < 3; ++i) {
+    larger.low[i] = static_cast<std::uint8_t>(std::max(0, box.low[i] - by));
+    larger.high[i] = static_cast<std::uint8_t>(std::min(255, box.high[i] + by));
+  }
+  return larger;
+}
+
 }  // namespace
+
+std::optional<ColourBox> grownInside(const ColourBounds& bounds, const ColourBox& box) {
+  if (!isInside(bounds, box)) return std::nullopt;
+  int by = 0;
+  for (int step = 128; step > 0; step /= 2)
+    if (isInside(bounds, grown(box, by + step))) by += step;
+  return grown(box, by);
+}
 
 ColourBounds deriveBounds(const ColourClass& colours, const ColourRange& options) {
   const Extremes extremes = extremesOf(colours);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace helical {
 
@@ -51,6 +52,16 @@ constexpr int otherA(int special) {
 constexpr int otherB(int special) {
   return (special + 2) % 3;
 }
+
+/// Colours between two values of each channel, in memory's order.
+struct ColourBox {
+  std::array<std::uint8_t, 3> low{255, 255, 255};
+  std::array<std::uint8_t, 3> high{0, 0, 0};
+};
+
+/// This box grown alike to all sides as far as all of it surely meets the inner bounds; none if it itself
+/// does not.
+std::optional<ColourBox> grownInside(const ColourBounds& bounds, const ColourBox& box);
 
 class ColourClass;
 struct ColourRange;

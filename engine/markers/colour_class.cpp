@@ -63,6 +63,7 @@ ColourClass::ColourClass(const ColourRange& options, Order order) : order_(order
     for (std::size_t i = 0; i < 65536; ++i)
       words[i >> 6] |= static_cast<std::uint64_t>(set[i] & 1U) << (i & 63U);
   }
+  has_slices_ = slices_.derive(table_);
   bounds_ = deriveBounds(*this, options);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/markers/colour_bounds.h"
+#include "engine/markers/colour_slices.h"
 #include "engine/markers/marker_options.h"
 
 namespace helical {
@@ -22,6 +23,8 @@ class ColourClass {
 
   /// `colour` points to three bytes in this class's order.
   bool contains(const std::uint8_t* colour) const {
+    // The table lies in memory's far corners, a page a colour.
+    if (has_slices_) return slices_.contains(colour);
     return contains(colour[0] | static_cast<std::uint32_t>(colour[1]) << 8 |
                     static_cast<std::uint32_t>(colour[2]) << 16);
   }
@@ -36,6 +39,8 @@ class ColourClass {
   Order order_;
   std::vector<std::uint64_t> table_;
   ColourBounds bounds_;
+  bool has_slices_ = false;
+  ColourSlices slices_;  ///< the same as the table
 };
 
 }  // namespace helical

@@ -102,9 +102,9 @@ void Extractor::Workspace::findMarkers(const ImageView& image, Observation& obse
 }
 
 void Extractor::Workspace::findRegions(const CellGrid& grid, std::span<const WordRect> windows) {
-  CellGrid empty;
+  BackgroundCells empty;
   const bool has_background = background.state() == BackgroundModel::State::kReady;
-  if (has_background) empty = CellGrid(background.view());
+  if (has_background) empty = BackgroundCells(CellGrid(background.view()), &background.ranges());
   selection.clear();
   for (std::size_t i = 0; i < colours.size(); ++i)
     selection.add(finder.find(grid, has_background ? &empty : nullptr, ruleOf(i),

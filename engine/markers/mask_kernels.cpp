@@ -71,6 +71,27 @@ void dilate(const MaskStep& step) {
   spread<false>(step);
 }
 
+void mergeAlongRows(const MaskStep& step, std::uint64_t* merged) {
+  const Tag d;
+  for (int y = 0; y < step.rows; y += static_cast<int>(hn::Lanes(d))) {
+    const std::uint64_t* word = step.in + y;
+    Words all = hn::Set(d, ~std::uint64_t{0});
+    for (int c = 0; c < step.columns - 1; ++c, word += step.stride) all = hn::And(all, hn::LoadU(d, word));
+    hn::StoreU(hn::And(all, hn::Or(hn::LoadU(d, word), hn::Set(d, step.outside))), d, merged + y);
+  }
+}
+
+void compareWithAbove(const MaskStep& step, std::uint64_t* changes) {
+  const Tag d;
+  for (int y = 0; y < step.rows; y += static_cast<int>(hn::Lanes(d))) {
+    const std::uint64_t* word = step.in + y;
+    Words changed = hn::Zero(d);
+    for (int c = 0; c < step.columns; ++c, word += step.stride)
+      changed = hn::Or(changed, hn::Xor(hn::LoadU(d, word), hn::LoadU(d, word - 1)));
+    hn::StoreU(changed, d, changes + y);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace helical
 HWY_AFTER_NAMESPACE();
@@ -80,6 +101,8 @@ namespace helical {
 
 HWY_EXPORT(erode);
 HWY_EXPORT(dilate);
+HWY_EXPORT(mergeAlongRows);
+HWY_EXPORT(compareWithAbove);
 
 void erodeColumns(const MaskStep& step) {
   HWY_DYNAMIC_DISPATCH(erode)(step);
@@ -87,6 +110,14 @@ void erodeColumns(const MaskStep& step) {
 
 void dilateColumns(const MaskStep& step) {
   HWY_DYNAMIC_DISPATCH(dilate)(step);
+}
+
+void mergeRows(const MaskStep& columns, std::uint64_t* merged) {
+  HWY_DYNAMIC_DISPATCH(mergeAlongRows)(columns, merged);
+}
+
+void compareRows(const MaskStep& columns, std::uint64_t* changes) {
+  HWY_DYNAMIC_DISPATCH(compareWithAbove)(columns, changes);
 }
 
 }  // namespace helical

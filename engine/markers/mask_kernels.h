@@ -25,4 +25,9 @@ struct MaskStep {
 void erodeColumns(const MaskStep& step);
 void dilateColumns(const MaskStep& step);
 
+/// For each row of columns that are laid out like a step's: the and of its words, `outside` counting as set.
+void mergeRows(const MaskStep& columns, std::uint64_t* merged);
+/// For each row: 0 where all its words are like those of the row above.
+void compareRows(const MaskStep& columns, std::uint64_t* changes);
+
 }  // namespace helical

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/markers/binary_mask.h"
+#include "engine/markers/mask_kernels.h"
 
 namespace helical {
 
@@ -32,6 +34,10 @@ class MaskTile {
   /// With a square of side 2 `reach` + 1, `reach` at most 7.
   void open(int reach);
   void close(int reach);
+  /// Both; quick where most rows are set from end to end, which stay so.
+  void openAndCloseFull(int opening, int closing);
+  /// For each row: 0 where it is like the row above. Valid until the next call of another function.
+  std::span<const std::uint64_t> changes();
 
  private:
   static constexpr int kPadding =
@@ -41,13 +47,19 @@ class MaskTile {
   void dilate(int reach);
   void pad(int reach, std::uint64_t above, std::uint64_t below);
   void advance(bool erode, int reach);
+  MaskStep step() const;
+  bool isAtRight() const { return rect_.right == image_words_ - 1; }
 
   int image_words_ = 0;
   int image_height_ = 0;
   std::uint64_t outside_ = 0;  ///< cells of a row's last word that lie outside of the image
   WordRect rect_;
+  /// Of the rectangle's rows, those that are worked on; the others are full.
+  int first_row_ = 0;
+  int end_row_ = 0;
   std::ptrdiff_t stride_ = 0;
   std::vector<std::uint64_t> a_, b_;
+  std::vector<std::uint64_t> by_row_;
   std::vector<std::uint64_t>* now_ = &a_;
   std::vector<std::uint64_t>* next_ = &b_;
 };

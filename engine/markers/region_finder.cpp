@@ -22,8 +22,8 @@ void RegionFinder::resize(int width, int height) {
   labeller_.resize(width, height);
 }
 
-std::span<Region> RegionFinder::find(const CellGrid& frame, const CellGrid* background, const CellRule& rule,
-                                     const BinaryMask* ignored, BinaryMask* mask,
+std::span<Region> RegionFinder::find(const CellGrid& frame, const BackgroundCells* background,
+                                     const CellRule& rule, const BinaryMask* ignored, BinaryMask* mask,
                                      std::span<const WordRect> windows) {
   const WordRect everywhere = mask_.everywhere();
   const Task task{frame,   background, rule,
@@ -53,7 +53,10 @@ bool RegionFinder::findSparsely(const Task& task) {
     const WordRect& rect = tile_.rect();
     for (int w = rect.left; w <= rect.right; ++w)
       for (int y = rect.top; y <= rect.bottom; ++y) tile_.column(w)[y - rect.top] = mask_.row(y)[w];
-    finish(task);
+    tile_.open(opening_reach_);
+    tile_.close(closing_reach_);
+    labeller_.label(tile_);
+    copyMask(task);
   }
   return true;
 }
@@ -65,10 +68,11 @@ bool RegionFinder::scanRows(const Task& task, const WordRect& window) {
   ScannedRows rows{std::min(opening_reach_, last), step, last, window.bottom};
   if (rows.first < window.top)
     rows.first = std::min(last, rows.first + (window.top - rows.first + step - 1) / step * step);
-  const int found = findCandidates(task.frame, task.background, task.rule, rows, window.left,
-                                   window.right + 1, most, hits_.data() + hit_count_);
+  int found = 0;
+  const bool is_sparse = findCandidates(task.frame, task.background, task.rule, rows, window.left,
+                                        window.right + 1, most, hits_.data() + hit_count_, found);
   hit_count_ += static_cast<std::size_t>(found);
-  return found <= most;
+  return is_sparse;
 }
 
 void RegionFinder::store(const Task& task, std::span<const CellWord> words) {
@@ -138,10 +142,7 @@ bool RegionFinder::addIsland(WordRect box) {
   return true;
 }
 
-void RegionFinder::finish(const Task& task) {
-  tile_.open(opening_reach_);
-  tile_.close(closing_reach_);
-  labeller_.label(tile_);
+void RegionFinder::copyMask(const Task& task) const {
   if (task.mask == nullptr) return;
   const WordRect& rect = tile_.rect();
   for (int y = rect.top; y <= rect.bottom; ++y)
@@ -169,7 +170,9 @@ void RegionFinder::findDensely(const Task& task) {
   if (task.ignored != nullptr)
     for (int w = 0; w < mask_.wordsPerRow(); ++w)
       for (int y = 0; y < mask_.height(); ++y) tile_.column(w)[y] &= ~task.ignored->row(y)[w];
-  finish(task);
+  tile_.openAndCloseFull(opening_reach_, closing_reach_);
+  labeller_.label(tile_, tile_.changes());
+  copyMask(task);
 }
 
 }  // namespace helical

@@ -17,9 +17,9 @@ namespace helical {
 /// the rows k/2, k/2 + k, ...: only those rows are read; around runs of k cells in them, the k - 1 rows above
 /// and below are, in the words that the run touches. What was found there is worked on in small rectangles
 /// that cannot influence each other. Of windows, only what lies in them is read: regions that do not come
-/// near a window's edge are those of the whole image. Where there is too much of it, all rows are classified and the whole
-/// mask is worked on: slower for little, faster for much, equal in its result. Allocates in `resize` only.
-/// One thread.
+/// near a window's edge are those of the whole image. Where there is too much of it, all rows are classified
+/// and the whole mask is worked on: slower for little, faster for much, equal in its result. Allocates in
+/// `resize` only. One thread.
 class RegionFinder {
  public:
   /// Sides of the squares; 1 switches a step off.
@@ -30,7 +30,7 @@ class RegionFinder {
   /// Regions of the cells that `rule` takes and that `ignored`, if given, does not hold; in no particular
   /// order, valid until the next call. `windows`, which must not overlap, are read only; without any,
   /// everything. `mask`, if given, becomes the mask after opening and closing.
-  std::span<Region> find(const CellGrid& frame, const CellGrid* background, const CellRule& rule,
+  std::span<Region> find(const CellGrid& frame, const BackgroundCells* background, const CellRule& rule,
                          const BinaryMask* ignored = nullptr, BinaryMask* mask = nullptr,
                          std::span<const WordRect> windows = {});
 
@@ -40,7 +40,7 @@ class RegionFinder {
  private:
   struct Task {
     const CellGrid& frame;
-    const CellGrid* background;
+    const BackgroundCells* background;
     const CellRule& rule;
     const BinaryMask* ignored;
     BinaryMask* mask;
@@ -55,7 +55,7 @@ class RegionFinder {
   bool addIsland(WordRect box);
   std::uint64_t runCentres(const CellWord& hit) const;
   void store(const Task& task, std::span<const CellWord> words);
-  void finish(const Task& task);
+  void copyMask(const Task& task) const;
   void forget();
 
   int opening_reach_;

@@ -21,12 +21,22 @@ void RegionLabeller::clear() {
   regions_.clear();
 }
 
-void RegionLabeller::label(const MaskTile& part) {
+void RegionLabeller::label(const MaskTile& part, std::span<const std::uint64_t> changes) {
   current_.clear();
-  for (int y = part.rect().top; y <= part.rect().bottom; ++y) {
+  const int top = part.rect().top, end = part.rect().bottom + 1;
+  const auto isLikeAbove = [&](int y) { return changes[static_cast<std::size_t>(y - top)] == 0; };
+  for (int y = top; y < end;) {
+    int next = y;
+    while (y > top && !changes.empty() && next < end && isLikeAbove(next)) ++next;
+    if (next > y) {
+      repeatRuns(y, next - y);
+      y = next;
+      continue;
+    }
     std::swap(above_, current_);
     findRuns(part, y);
     joinRuns(y);
+    ++y;
   }
 }
 
@@ -79,6 +89,18 @@ void RegionLabeller::joinRuns(int y) {
     region.left = std::min(region.left, run.first);
     region.right = std::max(region.right, run.last);
     region.bottom = y;
+  }
+}
+
+/// The runs of the last row once more in each of the next `rows`.
+void RegionLabeller::repeatRuns(int y, int rows) {
+  for (const Run& run : current_) {
+    Region& region = regions_[static_cast<std::size_t>(rootOf(run.label))];
+    const std::int64_t length = run.last - run.first + 1;
+    region.area += rows * length;
+    region.sum_x += rows * (length * (run.first + run.last) / 2);
+    region.sum_y += length * (static_cast<std::int64_t>(rows) * (2 * y + rows - 1) / 2);
+    region.bottom = y + rows - 1;
   }
 }
 

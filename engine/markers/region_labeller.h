@@ -27,8 +27,8 @@ class RegionLabeller {
 
   /// Forgets all regions.
   void clear();
-  /// Adds those of a part of the mask; parts must not touch each other.
-  void label(const MaskTile& part);
+  /// Adds those of a part of the mask; parts must not touch each other. `changes`, if given, are the part's.
+  void label(const MaskTile& part, std::span<const std::uint64_t> changes = {});
   /// All of them, in no particular order; valid until the next call of another function.
   std::span<Region> regions();
 
@@ -41,6 +41,7 @@ class RegionLabeller {
 
   void findRuns(const MaskTile& part, int y);
   void joinRuns(int y);
+  void repeatRuns(int y, int rows);
   int rootOf(int label);
   int unite(int a, int b);
 

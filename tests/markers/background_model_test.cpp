@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/random.h"
@@ -54,6 +56,59 @@ TEST(BackgroundModel, KeepsOutWhatIsFoundAndWhatDiffersTooMuch) {
   EXPECT_EQ(levelAt(background, 120, 41), 105);
   const ImageView view = background.view();
   EXPECT_EQ(view.row(30)[3 * 30 + 1], 100);  // the ball's green
+}
+
+/// Cells that lie outside of what is known of their tile, and levels by which the tiles say more than there
+/// is.
+std::pair<int, int> outsideAndSlack(const BackgroundCells& cells) {
+  int outside = 0, slack = 0;
+  for (int y = 0; y < cells.height; y += BackgroundRanges::kTileRows)
+    for (int x = 0; x < cells.width; x += 64) {
+      CellRange exact;
+      for (int dy = 0; dy < std::min(BackgroundRanges::kTileRows, cells.height - y); ++dy)
+        for (int dx = 0; dx < std::min(64, cells.width - x); ++dx) {
+          CellRange cell;
+          readCell(cells, x + dx, y + dy, cell.low.data());
+          cell.high = cell.low;
+          exact.include(cell);
+        }
+      const CellRange& known = cells.range(y, x / 64);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(cells.layout == CellLayout::kBytes ? 1 : 3); ++i) {
+        outside += (known.low[i] > exact.low[i] || known.high[i] < exact.high[i]) ? 1 : 0;
+        slack += exact.low[i] - known.low[i] + known.high[i] - exact.high[i];
+      }
+    }
+  return {outside, slack};
+}
+
+TEST(BackgroundModel, KnowsTheRangesOfItsCells) {
+  for (const std::string& instructions : instructionSets())
+    for (const PixelFormat format :
+         {PixelFormat::kBgr8, PixelFormat::kMono8, PixelFormat::kBayerRg8, PixelFormat::kBayerGb8}) {
+      useInstructionSet(instructions);
+      SCOPED_TRACE(testing::Message() << instructions << ", format " << static_cast<int>(format));
+      Random random(5);
+      Picture before(333, 75), after(333, 75);
+      before.fill(100, 110, 120);
+      before.addNoise(random, 5.0);
+      after.fill(112, 104, 120);
+      after.addNoise(random, 5.0);
+      BackgroundModel background(1);
+      background.update(before.as(format).view());
+      const auto known = [&] {
+        return outsideAndSlack(BackgroundCells(CellGrid(background.view()), &background.ranges()));
+      };
+      EXPECT_EQ(known(), std::pair(0, 0));
+      for (int frame = 0; frame < 75; ++frame) {
+        background.adapt(after.as(format).view(), 1, 20, {40, 20, 90, 50});
+        ASSERT_EQ(known().first, 0);
+      }
+      EXPECT_LE(known().second,
+                format == PixelFormat::kBayerRg8 || format == PixelFormat::kBayerGb8 ? 200 : 0);
+      for (int frame = 0; frame < 100; ++frame) background.adapt(after.as(format).view(), 7, 20, {});
+      EXPECT_EQ(known().first, 0);
+    }
+  useInstructionSet({});
 }
 
 TEST(BackgroundModel, MovesTheSameBytesInEveryInstructionSet) {

@@ -18,9 +18,9 @@ namespace {
 
 using test::Picture;
 
-enum class Scene { kNoise, kBlocks, kBalls, kClutter, kAllMarker, kHalfMarker };
-constexpr std::array kScenes{Scene::kNoise,   Scene::kBlocks,    Scene::kBalls,
-                             Scene::kClutter, Scene::kAllMarker, Scene::kHalfMarker};
+enum class Scene { kNoise, kBlocks, kBalls, kClutter, kAllMarker, kHalfMarker, kHoles };
+constexpr std::array kScenes{Scene::kNoise,     Scene::kBlocks,     Scene::kBalls, Scene::kClutter,
+                             Scene::kAllMarker, Scene::kHalfMarker, Scene::kHoles};
 
 constexpr std::array kFormats{PixelFormat::kBgr8,     PixelFormat::kRgb8,     PixelFormat::kMono8,
                               PixelFormat::kBayerRg8, PixelFormat::kBayerGr8, PixelFormat::kBayerGb8,
@@ -32,7 +32,7 @@ Picture draw(Scene scene, int width, int height, Random& random) {
     picture.randomise(random);
     return picture;
   }
-  const bool is_green = scene == Scene::kAllMarker;
+  const bool is_green = scene == Scene::kAllMarker || scene == Scene::kHoles;
   picture.fill(is_green ? 50 : 105, is_green ? 190 : 115, is_green ? 55 : 125);
   if (scene == Scene::kBlocks) picture.drawRandomBlocks(random, 8, 0.6);
   if (scene == Scene::kHalfMarker)
@@ -42,6 +42,10 @@ Picture draw(Scene scene, int width, int height, Random& random) {
   const int discs = scene == Scene::kBalls ? 4 : scene == Scene::kClutter ? 40 : 0;
   for (int i = 0; i < discs; ++i)
     picture.drawDisc(random.uniform(0, width), random.uniform(0, height), random.uniform(2, 8), 45, 190, 50);
+  if (scene == Scene::kHoles)
+    for (int i = 0; i < 3; ++i)
+      picture.drawDisc(random.uniform(0, width), random.uniform(0, height), random.uniform(1, 6), 105, 115,
+                       125);
   picture.addNoise(random, 4.0);
   return picture;
 }
@@ -111,7 +115,12 @@ class RegionFinderEqualsReference : public testing::TestWithParam<std::string> {
   void compare(const Picture& picture, const Picture* empty, const Case& c, bool with_ignored,
                Random& random) {
     const CellGrid grid(picture.view());
-    const CellGrid behind = empty != nullptr ? CellGrid(empty->view()) : CellGrid();
+    BackgroundRanges ranges;
+    if (empty != nullptr) ranges.measure(CellGrid(empty->view()));
+    const BackgroundCells behind =
+        empty != nullptr
+            ? BackgroundCells(CellGrid(empty->view()), random.uniform() < 0.7 ? &ranges : nullptr)
+            : BackgroundCells();
     const BinaryMask ignored = someAreas(grid, random);
     const BinaryMask* hidden = with_ignored ? &ignored : nullptr;
     MarkerOptions options;
@@ -213,15 +222,52 @@ TEST(ColourBounds, HoldForEveryColour) {
                            special <= b.inner_value_high && darkest <= b.inner_darkest_at_most.of(special) &&
                            x - y <= b.inner_a_over_b.of(special - darkest) &&
                            y - x <= b.inner_b_over_a.of(special - darkest);
-        bool outer = brightest >= b.value_low && brightest - darkest >= b.chroma && darkest <= b.darkest_at_most.of(brightest);
+        bool outer = brightest >= b.value_low && brightest - darkest >= b.chroma &&
+                     darkest <= b.darkest_at_most.of(brightest);
         if (b.shape == ColourBounds::Shape::kDominant) outer &= std::max(x, y) <= special - b.lead;
         if (b.shape == ColourBounds::Shape::kRecessive) outer &= std::min(x, y) >= special + b.lead;
         if (b.shape == ColourBounds::Shape::kAny) outer &= darkest >= b.darkest_at_least.of(brightest);
         const bool is_in = colours.contains(i);
-        wrong += (is_in && !outer) || (inner && !is_in) ? 1 : 0;
+        const std::array<std::uint8_t, 3> bytes{static_cast<std::uint8_t>(v[0]),
+                                                static_cast<std::uint8_t>(v[1]),
+                                                static_cast<std::uint8_t>(v[2])};
+        wrong += (is_in && !outer) || (inner && !is_in) || colours.contains(bytes.data()) != is_in ? 1 : 0;
       }
       EXPECT_EQ(wrong, 0);
     }
+}
+
+TEST(ColourBounds, GrowBoxesThatHoldColoursOfTheClassOnly) {
+  Random random(3);
+  const auto byte = [&random] { return static_cast<int>(random.uniform(0, 256)); };
+  const auto byteFrom = [&random](int low, int high) {
+    return static_cast<std::uint32_t>(low + static_cast<int>(random.uniform(0, high - low + 1)));
+  };
+  int grown = 0;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const ColourClass colours(c.colour, ColourClass::Order::kBgr);
+    for (int i = 0; i < 20000; ++i) {
+      ColourBox box;
+      for (std::size_t k = 0; k < 3; ++k) box.low[k] = box.high[k] = static_cast<std::uint8_t>(byte());
+      const auto larger = grownInside(colours.bounds(), box);
+      if (!larger) continue;
+      ++grown;
+      for (int sample = 0; sample < 30; ++sample) {
+        std::uint32_t colour = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          ASSERT_LE(larger->low[k], box.low[k]);
+          ASSERT_GE(larger->high[k], box.high[k]);
+          // Its corners first.
+          const std::uint32_t value = sample < 8 ? (sample >> k & 1) != 0 ? larger->high[k] : larger->low[k]
+                                                 : byteFrom(larger->low[k], larger->high[k]);
+          colour |= value << (8 * k);
+        }
+        ASSERT_TRUE(colours.contains(colour));
+      }
+    }
+  }
+  EXPECT_GT(grown, 5000);
 }
 
 }  // namespace

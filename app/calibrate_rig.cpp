@@ -71,7 +71,7 @@ nlohmann::json toJson(const RigCalibration& calibration) {
           c.observations > c.rejected ? nlohmann::json(c.reprojection_rms_px) : nlohmann::json()},
          {"observations", c.observations},
          {"rejected", c.rejected},
-         {"late_s", c.late_s},
+         {"late_s", jsonOf(c.late_s)},
          {"position_sigma_m", known ? nlohmann::json(c.position_sigma_m) : nlohmann::json()},
          {"orientation_sigma_deg", known ? nlohmann::json(c.orientation_sigma_deg) : nlohmann::json()},
          {"distance_m", c.camera_from_world ? nlohmann::json(c.distance_m) : nlohmann::json()},
@@ -145,9 +145,9 @@ void printDelays(const RigCalibration& calibration) {
   const auto first = std::find_if(calibration.cameras.begin(), calibration.cameras.end(),
                                   [](const auto& c) { return c.camera_from_world && c.late_s == 0.0; });
   for (const CalibratedCamera& c : calibration.cameras)
-    if (c.late_s != 0.0 && first != calibration.cameras.end())
+    if (c.late_s && *c.late_s != 0.0 && first != calibration.cameras.end())
       std::printf("camera %s saw %.4g s %s than its time stamps say, against camera %s: taken into account\n",
-                  c.label.c_str(), std::abs(c.late_s), c.late_s > 0.0 ? "later" : "earlier",
+                  c.label.c_str(), std::abs(*c.late_s), *c.late_s > 0.0 ? "later" : "earlier",
                   first->label.c_str());
 }
 
@@ -190,9 +190,15 @@ std::string provenance(const RigArguments& arguments, const RigCalibration& cali
                      calibration.scale_from + ".\nWorld: " + calibration.world +
                      ". A pixel's standard deviation: " + decimals(calibration.sigma_px, 3) + " px per axis.";
   if (calibration.delays) {
+    std::string open;
     text += "\nTaken off, how much later than its stamps each camera saw [s]:";
-    for (const CalibratedCamera& c : calibration.cameras) text += " " + c.label + " " + decimals(c.late_s, 4);
+    for (const CalibratedCamera& c : calibration.cameras)
+      if (c.late_s)
+        text += " " + c.label + " " + decimals(*c.late_s, 4);
+      else
+        open += " " + c.label;
     text += ".";
+    if (!open.empty()) text += " Not known of cameras that could not be placed:" + open + ".";
   }
   if (calibration.self.focal_sigma > 0.0) {
     text += "\nFocal lengths were found, over those of that rig:";

@@ -69,6 +69,7 @@ class JointSearch {
   void correct(const CameraModel& camera, const MarkerLayout& markers) {
     camera_ = camera;
     markers_ = markers;
+    seeds_.correct(markers);
   }
 
   /// Whether the last step ended a round: the costs of the hypotheses are those of the same frames.

@@ -54,6 +54,8 @@ void RigBundle::Sum::clear() {
   cost = median_sigmas = 0.0;
   balls.fill(0);
   inliers.fill(0);
+  seen.fill(0);
+  fitting.fill(0);
 }
 
 RigBundle::RigBundle(std::vector<CameraModel> cameras, const MarkerLayout& markers, int moments)
@@ -210,6 +212,7 @@ void RigBundle::add(RigMoment& moment) {
     for (int m = 0; m < layout_.count(); ++m) {
       if (!view.seen[static_cast<std::size_t>(m)]) continue;
       ++sum_.balls[c];
+      ++sum_.seen[static_cast<std::size_t>(m)];
       const auto term = project(c, m, moment, true);
       if (!term) {
         sum_.cost += kUnseenCost;
@@ -218,7 +221,9 @@ void RigBundle::add(RigMoment& moment) {
       const double information = 1.0 / view.variance;
       const double squared = information * term->residual.squaredNorm();
       const double weighted = information * weight(squared, sum_.cost);
-      sum_.inliers[c] += squared <= scale_ * scale_;
+      const bool fits = squared <= scale_ * scale_;
+      sum_.inliers[c] += fits;
+      sum_.fitting[static_cast<std::size_t>(m)] += fits;
       if (distances_.size() < distances_.capacity()) distances_.push_back(static_cast<float>(squared));
       // All derivatives of this term in the columns that it touches.
       struct Block {
@@ -375,7 +380,7 @@ void RigBundle::finish() {
     root.transpose().solveInPlace(unit);
   }
   // Where even the answer fits badly, sigma was too small.
-  const double misfit = std::max(1.0, std::pow(current_.median_sigmas / kMedianOfTwo, 2));
+  misfit_ = std::max(1.0, std::pow(current_.median_sigmas / kMedianOfTwo, 2));
   for (std::size_t c = 0; c < models_.size(); ++c) {
     BundleCamera& camera = cameras_[c];
     camera.balls = current_.balls[c];
@@ -383,28 +388,39 @@ void RigBundle::finish() {
     camera.camera_from_world = best_.cameras[c];
     camera.focal_scale = best_.focal_scales[c];
     if (camera_column_[c] >= 0)
-      camera.covariance = misfit * covariance.block<6, 6>(camera_column_[c], camera_column_[c]);
+      camera.covariance = misfit_ * covariance.block<6, 6>(camera_column_[c], camera_column_[c]);
     if (focal_column_[c] >= 0)
-      camera.focal_sigma = std::sqrt(misfit * covariance(focal_column_[c], focal_column_[c]));
-  }
-  // With the other parameters at their best for each, the cost is a quadratic form of these: that of the factor's
-  // lower right corner.
-  const int moved = columns_ - moved_column_;
-  auto shift = step_.segment(moved_column_, moved);
-  for (std::size_t c = 0; c < models_.size(); ++c)
-    if (focal_column_[c] >= 0) step_[focal_column_[c]] = best_.focal_scales[c] - given_[c].focal_scale;
-  if (marker_column_ >= 0)
-    for (int m = 0; m < layout_.count(); ++m)
-      step_.segment<3>(marker_column_ + 3 * m) =
-          best_.markers[static_cast<std::size_t>(m)] - initial_layout_.inBody(markerId(m));
-  gain_ = 0.0;
-  for (int column = 0; column < moved; ++column) {
-    const auto below = factor_.col(moved_column_ + column).segment(moved_column_ + column, moved - column);
-    gain_ += std::pow(below.dot(shift.tail(moved - column)), 2) / misfit;
+      camera.focal_sigma = std::sqrt(misfit_ * covariance(focal_column_[c], focal_column_[c]));
   }
   if (marker_column_ < 0) return;
   layout_ = MarkerLayout({best_.markers.data(), static_cast<std::size_t>(initial_layout_.count())},
                          initial_layout_.radius());
+}
+
+/// With the other parameters at their best for each, the cost is a quadratic form of these: that of the
+/// factor's lower right corner.
+double RigBundle::gainOver(const MarkerLayout& balls, std::span<const double> focal_scales) const {
+  const int moved = columns_ - moved_column_;
+  std::array<double, kMaxCameras + 3 * kMaxMarkers> shifts;
+  Eigen::Map<Eigen::VectorXd> shift(shifts.data(), moved);
+  for (std::size_t c = 0; c < models_.size(); ++c)
+    if (focal_column_[c] >= 0)
+      shift[focal_column_[c] - moved_column_] = best_.focal_scales[c] - focal_scales[c];
+  if (marker_column_ >= 0)
+    for (int m = 0; m < layout_.count(); ++m)
+      shift.segment<3>(marker_column_ - moved_column_ + 3 * m) =
+          best_.markers[static_cast<std::size_t>(m)] - balls.inBody(markerId(m));
+  double gain = 0.0;
+  for (int column = 0; column < moved; ++column) {
+    const auto below = factor_.col(moved_column_ + column).segment(moved_column_ + column, moved - column);
+    gain += std::pow(below.dot(shift.tail(moved - column)), 2) / misfit_;
+  }
+  return gain;
+}
+
+double RigBundle::fitting(MarkerId ball) const {
+  const auto m = static_cast<std::size_t>(ball.index());
+  return current_.seen[m] > 0 ? static_cast<double>(current_.fitting[m]) / current_.seen[m] : 1.0;
 }
 
 }  // namespace helical

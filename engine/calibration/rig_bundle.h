@@ -65,10 +65,13 @@ class RigBundle {
   std::span<const BundleCamera> cameras() const { return cameras_; }
   const MarkerLayout& markers() const { return layout_; }
   double medianSigmas() const { return current_.median_sigmas; }  ///< 1.18 where noise is as told
-  /// By how much the cost is lower for balls and focal lengths that moved, with all else free either way, over what
-  /// noise of the size found explains: about the number of `freedoms` where they stand right, chi-square distributed.
-  double gain() const { return gain_; }
+  /// By how much the cost is lower for the balls and focal lengths found than for these, with all else free
+  /// either way, over what noise of the size found explains: about the number of `freedoms` where these stand
+  /// right, chi-square distributed.
+  double gainOver(const MarkerLayout& balls, std::span<const double> focal_scales) const;
   int freedoms() const { return freedoms_; }
+  /// Share of the images of a ball that are explained within `robust_sigmas`; 1 where it was not seen.
+  double fitting(MarkerId ball) const;
 
  private:
   enum class State { kIdle, kEvaluating, kDone, kFailed };
@@ -83,6 +86,7 @@ class RigBundle {
     double cost = 0.0;
     double median_sigmas = 0.0;
     std::array<int, kMaxCameras> balls{}, inliers{};
+    std::array<int, kMaxMarkers> seen{}, fitting{};  ///< of each ball
     void clear();
   };
   /// One ball in one image under the parameters.
@@ -124,7 +128,7 @@ class RigBundle {
   std::array<int, kMaxCameras> camera_column_{}, focal_column_{};
   int marker_column_ = -1, columns_ = 0;
   int moved_column_ = 0;  ///< from here on are focal lengths and balls
-  double gain_ = 0.0;
+  double misfit_ = 1.0;   ///< variance over the one told, where even the answer fits badly
   int freedoms_ = 0;
   std::size_t next_ = 0;
   bool first_ = true;

@@ -21,6 +21,7 @@ constexpr double kBeyondChance = 4.0;
 constexpr double kOpenFocal = 0.4;
 // For balls and focal lengths: one camera by itself sees a helicopter of other balls at another distance.
 constexpr int kFewestCameras = 2;
+constexpr double kHardlySeen = 0.25;  // over the images of the ball that was seen most
 constexpr int kSliceOfAll = 18;  // moments times cameras looked at with one observation
 
 /// That chi-square passes as rarely as a normal deviate passes `sigmas` (Wilson and Hilferty).
@@ -87,6 +88,8 @@ void validate(const RigRefinementOptions& options) {
   require(options.fewest_of_camera >= 3, "fewest_of_camera", options.fewest_of_camera, "give at least 3");
   require(options.good_inliers > 0.0 && options.good_inliers <= 1.0, "good_inliers", options.good_inliers,
           "give a share above 0");
+  require(options.good_ball > 0.0 && options.good_ball <= 1.0, "good_ball", options.good_ball,
+          "give a share above 0");
   require(options.good_median > 1.2, "good_median", options.good_median, "give more than 1.2");
 }
 
@@ -146,6 +149,7 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
     const auto seen = std::count_if(moments.begin(), moments.end(),
                                     [&](const RigMoment* moment) { return moment->views[c].seen.any(); });
     camera.used = cameras[c].used && seen >= options_.fewest_of_camera;
+    in_control_[c] = camera.used && cameras[c].estimate.status == CameraStatus::kCalibrated;
     camera.given = cameras[c].holds;
     camera.camera_from_world = cameras[c].estimate.camera_from_world;
     camera.covariance = cameras[c].estimate.covariance;
@@ -186,7 +190,13 @@ void RigRefinement::solve(const SelfCalibrationOptions& self) {
 
 bool RigRefinement::work() {
   if (!bundle_.running() || !bundle_.advance(slice_)) return false;
-  if (!correcting_) return true;
+  if (!correcting_) {
+    if (!succeeded())
+      correction_ = Correction::kNoAnswer;
+    else if (poseJumpsTooFar() || someCameraJumpsTooFar())
+      correction_ = Correction::kCamerasTooFar;
+    return true;
+  }
   if (succeeded() && leaveOutWhatIsOpen()) {
     solve(options_.self);
     return false;
@@ -226,21 +236,39 @@ bool RigRefinement::leaveOutWhatIsOpen() {
 }
 
 RigRefinement::Correction RigRefinement::judgeCorrection() {
-  if (!succeeded()) return Correction::kUnsound;
+  if (!bundle_.succeeded()) return Correction::kNoAnswer;
+  // A ball that is far off weighs nothing, and without it all is well.
+  if (!succeeded() || !everyBallFits()) return Correction::kUnsound;
   const double n = bundle_.freedoms();
-  if (bundle_.gain() <= inflation_ * (n + kBeyondChance * std::sqrt(2.0 * n))) return Correction::kNotNeeded;
+  // What was found by as many images errs as much as what is found now.
+  const double variance = inflation_ * (found_before_ ? 2.0 : 1.0);
+  if (bundle_.gainOver(markers_, focal_scales_) <= variance * (n + kBeyondChance * std::sqrt(2.0 * n)))
+    return Correction::kNotNeeded;
   for (std::size_t c = 0; c < cameras_; ++c) {
     const BundleCamera& found = bundle_.cameras()[c];
     if (!found.used) continue;
     if (found.inliers < options_.good_inliers * found.balls) return Correction::kUnsound;
   }
   if (!isWithinPriors()) return Correction::kUnsound;
+  return poseJumpsTooFar() ? Correction::kTooFar : Correction::kFound;
+}
+
+bool RigRefinement::everyBallFits() const {
+  for (int m = 0; m < markers_.count(); ++m)
+    if (bundle_.fitting(markerId(m)) < options_.good_ball) return false;
+  return true;
+}
+
+int RigRefinement::ballsHardlySeen() const {
+  std::array<int, kMaxMarkers> seen{};
   for (std::size_t i = 0; i < solved_count_; ++i)
-    jumps_[i] = (solved_[i].world_from_body.translation - flown_[i].translation).norm();
-  if (medianJump() > options_.farthest_m) return Correction::kTooFar;
-  for (std::size_t i = 0; i < solved_count_; ++i)
-    jumps_[i] = solved_[i].world_from_body.rotation.angularDistance(flown_[i].rotation);
-  return medianJump() <= options_.farthest_rad ? Correction::kFound : Correction::kTooFar;
+    for (std::size_t c = 0; c < cameras_; ++c)
+      for (int m = 0; m < markers_.count(); ++m)
+        seen[static_cast<std::size_t>(m)] +=
+            asked_[c].used && solved_[i].views[c].seen[static_cast<std::size_t>(m)];
+  const auto balls = std::span(seen).first(static_cast<std::size_t>(markers_.count()));
+  const double fewest = kHardlySeen * std::ranges::max(balls);
+  return static_cast<int>(std::ranges::count_if(balls, [&](int count) { return count < fewest; }));
 }
 
 bool RigRefinement::isWithinPriors() const {
@@ -266,13 +294,37 @@ bool RigRefinement::isWithinPriors() const {
   return chi2 <= chi2Beyond(options_.farthest_sigmas, bundle_.freedoms());
 }
 
-double RigRefinement::medianJump() {
-  const auto middle = jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_ / 2);
-  std::nth_element(jumps_.begin(), middle, jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_));
-  return *middle;
+template <typename PoseAfter>
+bool RigRefinement::jumpsTooFar(const PoseAfter& pose_after) {
+  const auto median = [this] {
+    const auto middle = jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_ / 2);
+    std::nth_element(jumps_.begin(), middle, jumps_.begin() + static_cast<std::ptrdiff_t>(solved_count_));
+    return *middle;
+  };
+  for (std::size_t i = 0; i < solved_count_; ++i)
+    jumps_[i] = (pose_after(i).translation - flown_[i].translation).norm();
+  if (median() > options_.farthest_m) return true;
+  for (std::size_t i = 0; i < solved_count_; ++i)
+    jumps_[i] = pose_after(i).rotation.angularDistance(flown_[i].rotation);
+  return median() > options_.farthest_rad;
+}
+
+bool RigRefinement::poseJumpsTooFar() {
+  return jumpsTooFar([this](std::size_t i) -> const RigidTransform& { return solved_[i].world_from_body; });
+}
+
+bool RigRefinement::someCameraJumpsTooFar() {
+  for (std::size_t c = 0; c < cameras_; ++c) {
+    const BundleCamera& found = bundle_.cameras()[c];
+    if (!in_control_[c] || !found.used) continue;
+    const RigidTransform moved = found.camera_from_world.inverse() * asked_[c].camera_from_world;
+    if (jumpsTooFar([&](std::size_t i) { return moved * flown_[i]; })) return true;
+  }
+  return false;
 }
 
 void RigRefinement::takeCorrection() {
+  found_before_ = true;
   markers_ = bundle_.markers();
   for (std::size_t c = 0; c < cameras_; ++c)
     if (bundle_.cameras()[c].used) focal_scales_[c] = bundle_.cameras()[c].focal_scale;
@@ -285,7 +337,7 @@ bool RigRefinement::succeeded() const {
 CameraEstimate RigRefinement::answer(CameraId camera) const {
   const auto index = static_cast<std::size_t>(camera.index());
   CameraEstimate answer;
-  if (!succeeded()) return answer;
+  if (!succeeded() || correction_ == Correction::kCamerasTooFar) return answer;
   const BundleCamera& found = bundle_.cameras()[index];
   const bool exact = start_[index].given && start_[index].covariance.isZero(0.0);
   if (!found.used || exact || found.inliers < options_.good_inliers * found.balls) return answer;

@@ -18,13 +18,14 @@ struct RigRefinementOptions {
   int fewest_moments = 24;    ///< before anything is solved
   int fewest_of_camera = 12;  ///< moments in which a camera must have seen the helicopter
   double good_inliers = 0.7;  ///< share of a camera's balls that must fit
+  double good_ball = 0.5;     ///< share of a ball's images that must
   double good_median = 3.0;   ///< standard deviations that the median residual may have; 1.2 is expected
   SelfCalibrationOptions self;
   double farthest_sigmas =
       4.0;  ///< of the priors, that balls and focal lengths may be off, each and all together
-  // That the helicopter's pose may jump by it, median: four of the standard deviations, 0.02 m and 0.01 rad,
-  // by which the filter that flies opens for it. Its gate is at 4.2: farther off images would be refused and
-  // not followed.
+  // That the helicopter's pose, by all or by one camera in control, may jump by it, median: four of the
+  // standard deviations, 0.02 m and 0.01 rad, by which the filter that flies opens for it. Its gate is
+  // at 4.2: farther off images would be refused and not followed.
   double farthest_m = 0.08, farthest_rad = 0.04;
   double lasting_sigma_px = 0.08, lasting_time_s = 1.0;  ///< see LastingOffsets
 };
@@ -43,7 +44,9 @@ void validate(const RigRefinementOptions& options);
 /// solved for once more without them, and the answer is as if nobody had asked. A focal length that the
 /// images hardly tell stays as it is, and a learning camera that does not fit takes no part: that is found in
 /// runs of their own. The priors are about the rig's values however often it is done, and no image counts
-/// twice: nothing creeps.
+/// twice: nothing creeps. What was found stays until later images contradict it or tell far more: those that
+/// told it are gone, and new ones of less weight would only add their noise. Cameras alone may let the pose
+/// jump no farther than balls may.
 class RigRefinement {
  public:
   /// What is known of one camera when it starts.
@@ -72,16 +75,20 @@ class RigRefinement {
   /// What a run that ended has to say about balls and focal lengths.
   enum class Correction {
     kNotSought,
-    kFound,      ///< `markers` and `focalScale` are new, and the poses in its answers hold with these
-    kNotNeeded,  ///< images are explained as well by what is flown with
-    kUnsound,    ///< something else is wrong
-    kTooFar,     ///< the helicopter would jump
+    kFound,          ///< `markers` and `focalScale` are new, and the poses in its answers hold with these
+    kNotNeeded,      ///< images are explained as well by what is flown with
+    kUnsound,        ///< something else is wrong
+    kTooFar,         ///< the helicopter would jump
+    kNoAnswer,       ///< of any kind: nothing is to be changed
+    kCamerasTooFar,  ///< nor here: by the cameras' new poses alone the helicopter would jump
   };
   Correction correction() const { return correction_; }
   /// Whether it takes part in a run that goes on: what happens to it now spoils the run for all.
   bool uses(CameraId camera) const {
     return running() && asked_[static_cast<std::size_t>(camera.index())].used;
   }
+  /// Balls of which the run that ended knows little, for they hardly ever were where the pose said.
+  int ballsHardlySeen() const;
   /// What is flown with.
   const MarkerLayout& markers() const { return markers_; }
   double focalScale(CameraId camera) const { return focal_scales_[static_cast<std::size_t>(camera.index())]; }
@@ -107,10 +114,16 @@ class RigRefinement {
   /// Takes out of the run what it cannot tell. True if there was something.
   bool leaveOutWhatIsOpen();
   Correction judgeCorrection();
+  bool everyBallFits() const;
   bool isWithinPriors() const;
   void takeCorrection();
-  /// Of `jumps_`, the first of them.
-  double medianJump();
+  /// The helicopter, by all cameras together.
+  bool poseJumpsTooFar();
+  /// The helicopter as one of the cameras in control sees it by itself, balls as they are.
+  bool someCameraJumpsTooFar();
+  /// `pose_after(i)`: where the helicopter was at moment i, of `flown_`.
+  template <typename PoseAfter>
+  bool jumpsTooFar(const PoseAfter& pose_after);
 
   RigRefinementOptions options_;
   std::size_t cameras_;
@@ -123,12 +136,14 @@ class RigRefinement {
   RigBundle bundle_;
   std::vector<BundleCamera> asked_;      ///< as it was started
   std::vector<BundleCamera> start_;      ///< of this run
+  std::bitset<kMaxCameras> in_control_;  ///< of those asked for
   MarkerLayout markers_, said_markers_;  ///< flown with, and what the rig says
   std::array<double, kMaxCameras> focal_scales_, said_scales_;
   std::vector<RigidTransform> flown_;  ///< where the tracker had the helicopter at those moments
   std::vector<double> jumps_;          ///< scratch
   double inflation_ = 1.0;             ///< of variances, by offsets that last
   bool correcting_ = false;            ///< balls or focal lengths are unknowns of this run
+  bool found_before_ = false;          ///< what is flown with is as noisy as images are
   Correction correction_ = Correction::kNotSought;
   bool other_unknowns_ = false;  ///< than balls and focal lengths
   int slice_;

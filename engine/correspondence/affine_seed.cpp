@@ -32,7 +32,14 @@ std::size_t cornerOf(const HullOrder& hull, int i) {
 }  // namespace
 
 AffineSeeds::AffineSeeds(const CameraModel& camera, const MarkerLayout& markers)
-    : camera_(&camera), markers_(markers), n_(static_cast<std::size_t>(markers.count())) {
+    : camera_(&camera), n_(static_cast<std::size_t>(markers.count())) {
+  correct(markers);
+}
+
+void AffineSeeds::correct(const MarkerLayout& markers) {
+  HELICAL_CHECK(static_cast<std::size_t>(markers.count()) == n_);
+  markers_ = markers;
+  model_hull_ = {};
   std::array<Eigen::Vector2d, kMaxMarkers> in_plane;
   for (std::size_t m = 0; m < n_; ++m) in_plane[m] = markers.all()[m].head<2>();
   const Normaliser model({in_plane.data(), n_});

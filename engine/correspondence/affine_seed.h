@@ -32,6 +32,9 @@ class AffineSeeds {
   /// Nothing is sought before `start`.
   AffineSeeds(const CameraModel& camera, const MarkerLayout& markers);
 
+  /// The balls are here instead, as many as before; what goes on goes on with these.
+  void correct(const MarkerLayout& markers);
+
   /// `pixels` are as many as the markers, 4 or more, which lie close to a plane z = const of the body.
   void start(std::span<const Eigen::Vector2d> pixels, ViewSide side);
 

@@ -185,6 +185,12 @@ LabellingWalk::LabellingWalk(const CameraModel& camera, const MarkerLayout& mark
   found_.reserve(static_cast<std::size_t>(std::ceil(sides * theoremOneBound(markers.count()))));
 }
 
+void LabellingWalk::correct(const CameraModel& camera, const MarkerLayout& markers) {
+  stop();
+  layout_ = layersOf(markers);
+  scorer_.correct(camera, markers);
+}
+
 void LabellingWalk::start(const LabellingFrame& frame, const RigidTransform& prior) {
   frame_ = frame;
   scorer_.start({&frame_, 1}, prior);

@@ -84,6 +84,10 @@ class LabellingScorer {
   LabellingScorer(const CameraModel& camera, const MarkerLayout& markers,
                   const LabellingSearchOptions& options);
 
+  void correct(const CameraModel& camera, const MarkerLayout& markers) {
+    camera_ = camera;
+    markers_ = markers;
+  }
   /// `frames` stay valid while labellings are scored.
   void start(std::span<const LabellingFrame> frames, const RigidTransform& prior);
   ScoredLabelling score(const Labelling& labelling);
@@ -111,6 +115,9 @@ class LabellingWalk {
  public:
   LabellingWalk(const CameraModel& camera, const MarkerLayout& markers,
                 const LabellingSearchOptions& options = {});
+
+  /// Camera and balls are these instead, as many as before. A walk that goes on is broken off.
+  void correct(const CameraModel& camera, const MarkerLayout& markers);
 
   void start(const LabellingFrame& frame, const RigidTransform& prior);
   void stop() { labellings_.reset(); }

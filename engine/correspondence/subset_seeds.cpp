@@ -1,6 +1,8 @@
 #include "engine/correspondence/subset_seeds.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"
@@ -10,22 +12,36 @@ namespace {
 
 constexpr int kFewestNamed = 4;
 
+/// Nothing where those left are on a line: nothing could be named.
+std::optional<MarkerLayout> layoutWithout(int omitted, const MarkerLayout& markers) {
+  std::array<Eigen::Vector3d, kMaxMarkers> rest;
+  std::size_t count = 0;
+  for (int m = 0; m < markers.count(); ++m)
+    if (m != omitted) rest[count++] = markers.inBody(markerId(m));
+  try {
+    return MarkerLayout({rest.data(), count}, markers.radius());
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 SubsetSeeds::SubsetSeeds(const CameraModel& camera, const MarkerLayout& markers)
     : balls_(markers.count()), whole_(camera, markers) {
   if (balls_ <= kFewestNamed) return;
   for (int omitted = 0; omitted < balls_; ++omitted) {
-    std::vector<Eigen::Vector3d> rest;
-    for (int m = 0; m < balls_; ++m)
-      if (m != omitted) rest.push_back(markers.inBody(markerId(m)));
-    try {
-      without_.emplace_back(camera, MarkerLayout(rest, markers.radius()));
-      omitted_.push_back(static_cast<std::uint8_t>(omitted));
-    } catch (const Error&) {
-      // Without this ball the others are on a line: nothing could be named.
-    }
+    const auto rest = layoutWithout(omitted, markers);
+    if (!rest) continue;
+    without_.emplace_back(camera, *rest);
+    omitted_.push_back(static_cast<std::uint8_t>(omitted));
   }
+}
+
+void SubsetSeeds::correct(const MarkerLayout& markers) {
+  whole_.correct(markers);
+  for (std::size_t i = 0; i < without_.size(); ++i)
+    if (const auto rest = layoutWithout(omitted_[i], markers)) without_[i].correct(*rest);
 }
 
 bool SubsetSeeds::accepts(int centroids) const {

@@ -15,6 +15,9 @@ class SubsetSeeds {
  public:
   SubsetSeeds(const CameraModel& camera, const MarkerLayout& markers);
 
+  /// The balls are here instead, as many as before.
+  void correct(const MarkerLayout& markers);
+
   /// Whether so many centroids can be named: as many as the markers, one more or one less, four named ones at least.
   bool accepts(int centroids) const;
 

@@ -30,6 +30,7 @@ const char* phaseText(FlightPhase phase) {
 
 constexpr TimeNs kRepeat =
     30 * kNanosecondsPerSecond;  // a warning that comes and goes is not said more often
+constexpr double kTellBallsM = 5e-5;  // what is told has one decimal of a millimetre
 constexpr TimeNs kNever = -kRepeat;
 
 Severity severityOf(SafetyState demand) {
@@ -87,16 +88,24 @@ EngineEvent Announcer::event(TimeNs time, Severity severity, std::size_t camera,
   return result;
 }
 
-EngineEvent Announcer::ordered(TimeNs time, std::size_t camera, CalibrationOrderKind kind,
-                               const char* refusal) const {
-  if (kind == CalibrationOrderKind::kRefine) {
+EngineEvent Announcer::ordered(TimeNs time, const CalibrationOrder& order, const char* refusal) const {
+  const auto camera = static_cast<std::size_t>(order.camera.index());
+  if (order.kind == CalibrationOrderKind::kRefine) {
     if (refusal == nullptr) return event(time, Severity::kInfo, "Refinement of all cameras begins");
     std::array<char, 112> why{};
     std::snprintf(why.data(), why.size(), "Refinement refused: %s", refusal);
     return event(time, Severity::kCaution, why.data());
   }
-  if (refusal == nullptr) return event(time, Severity::kInfo, camera, calibrationText(kind));
   std::array<char, 96> text{};
+  if (refusal == nullptr && order.balls_off_m > kTellBallsM) {
+    std::array<char, 16> by{};
+    std::snprintf(by.data(), by.size(), "%.1f mm", 1e3 * order.balls_off_m);
+    std::snprintf(text.data(), text.size(),
+                  "placed by the loaded calibration, but its balls are not used, off by up to: %s",
+                  by.data());
+    return event(time, Severity::kCaution, camera, text.data());
+  }
+  if (refusal == nullptr) return event(time, Severity::kInfo, camera, calibrationText(order.kind));
   std::snprintf(text.data(), text.size(), "order refused: %s", refusal);
   return event(time, Severity::kCaution, camera, text.data());
 }
@@ -185,7 +194,13 @@ void Announcer::announceRefinement(const EngineSnapshot& now, const Sink& raise)
                     by.data());
       return raise(event(now.time, Severity::kGood, text.data()));
     case RefinementOutcome::kKept:
-      return raise(event(now.time, Severity::kGood, "Refined: images ask for no other balls and focal lengths"));
+      if (report.balls_hardly_seen == 0)
+        return raise(
+            event(now.time, Severity::kGood, "Refined: images ask for no other balls and focal lengths"));
+      std::snprintf(text.data(), text.size(),
+                    "Balls stay; not judged, for they hardly ever lay where the pose says: %s",
+                    std::to_string(report.balls_hardly_seen).c_str());
+      return raise(event(now.time, Severity::kCaution, text.data()));
     case RefinementOutcome::kUnsound:
       return raise(event(now.time, Severity::kCaution,
                          "Balls and focal lengths stay: none that marker_sigma_m and focal_sigma allow fit "
@@ -194,7 +209,11 @@ void Announcer::announceRefinement(const EngineSnapshot& now, const Sink& raise)
       return raise(event(now.time, Severity::kCaution,
                          "Balls and focal lengths stay: by those found the pose would jump too far to fly on"));
     case RefinementOutcome::kNoAnswer:
-      return raise(event(now.time, Severity::kCaution, "Refinement without an answer: nothing is changed"));
+      return raise(event(now.time, Severity::kCaution,
+                         "Refinement without an answer: the images do not fit together; nothing is changed"));
+    case RefinementOutcome::kCamerasTooFar:
+      return raise(event(now.time, Severity::kCaution,
+                         "Nothing is changed: by the refined cameras the pose would jump too far to fly on"));
     case RefinementOutcome::kOvertaken:
       return raise(event(now.time, Severity::kCaution,
                          "Refinement broken off: a camera was moved, frozen or placed meanwhile; nothing was "

@@ -27,7 +27,7 @@ class Announcer {
   /// "NAME: text".
   EngineEvent event(TimeNs time, Severity severity, std::size_t camera, const char* text) const;
   /// What came of an order; `refusal` says why nothing, or null.
-  EngineEvent ordered(TimeNs time, std::size_t camera, CalibrationOrderKind kind, const char* refusal) const;
+  EngineEvent ordered(TimeNs time, const CalibrationOrder& order, const char* refusal) const;
 
  private:
   /// What of a camera is announced when it changes.

@@ -29,6 +29,8 @@ struct CalibrationOrder {
   RigidTransform camera_from_world;         ///< of kAdopt
   Matrix6d covariance = Matrix6d::Zero();  ///< of kAdopt; order of CameraEstimate
   double focal_scale = 1.0;                 ///< of kAdopt, over the rig's: with which that place holds
+  double balls_off_m = 0.0;  ///< of kAdopt: that ball by which the place holds which is farthest from where
+                             ///< it is flown with; balls are not taken over
 };
 
 /// In one word, as sessions have it.

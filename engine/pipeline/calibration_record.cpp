@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "engine/base/error.h"
 
@@ -16,6 +18,23 @@ std::string utcNow() {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text;
+}
+
+const MarkerLayout& ballsOfFile(const RigConfig& rig) {
+  return rig.simulation.markers_before ? *rig.simulation.markers_before : rig.markers_in_body;
+}
+
+double ballsOff(const SavedCalibration& saved, const RigConfig& rig, const MarkerLayout& flown_with) {
+  const std::span<const Eigen::Vector3d> balls =
+      saved.markers_in_body.empty() ? ballsOfFile(rig).all() : std::span(saved.markers_in_body);
+  if (static_cast<int>(balls.size()) != flown_with.count())
+    throw Error(ErrorKind::kInput,
+                "the calibration is of a helicopter with " + std::to_string(balls.size()) + " balls",
+                saved.rig, "load one of a helicopter with " + std::to_string(flown_with.count()));
+  double farthest = 0.0;
+  for (std::size_t m = 0; m < balls.size(); ++m)
+    farthest = std::max(farthest, (balls[m] - flown_with.all()[m]).norm());
+  return farthest;
 }
 
 }  // namespace
@@ -33,7 +52,7 @@ SavedCalibration calibrationOf(const RigConfig& rig, const EngineSnapshot& now) 
                              camera.estimate.camera_from_world, camera.estimate.covariance,
                              rig.cameras[i].focal_scale * camera.focal_scale});
   }
-  const MarkerLayout& of_file = rig.simulation.markers_before.value_or(rig.markers_in_body);
+  const MarkerLayout& of_file = ballsOfFile(rig);
   if (!std::ranges::equal(of_file.all(), now.markers.all()))
     saved.markers_in_body.assign(now.markers.all().begin(), now.markers.all().end());
   if (saved.cameras.empty())
@@ -51,13 +70,15 @@ SavedCalibration onlyOf(const SavedCalibration& saved, const CameraConfig& camer
   return one;
 }
 
-std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig) {
+std::vector<CalibrationOrder> adoptOrders(const SavedCalibration& saved, const RigConfig& rig,
+                                          const MarkerLayout& flown_with) {
+  const double balls_off_m = ballsOff(saved, rig, flown_with);
   std::vector<CalibrationOrder> orders;
   for (const SavedCamera& camera : saved.cameras) {
     const CameraId id = rig.camera(camera.label);
     const double scale = camera.focal_scale / rig.cameras[static_cast<std::size_t>(id.index())].focal_scale;
     orders.push_back(
-        {CalibrationOrderKind::kAdopt, id, camera.camera_from_world, camera.covariance, scale});
+        {CalibrationOrderKind::kAdopt, id, camera.camera_from_world, camera.covariance, scale, balls_off_m});
   }
   return orders;
 }

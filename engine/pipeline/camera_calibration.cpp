@@ -118,6 +118,8 @@ bool CameraCalibration::accept() {
 void CameraCalibration::correct(const CameraModel& camera, const MarkerLayout& markers) {
   camera_ = camera;
   markers_ = markers;
+  if (search_.running()) tracks_.forget();
+  search_.correct(camera, markers);
   calibrator_->correct(camera, markers);
 }
 

@@ -36,8 +36,7 @@ class CameraCalibration {
   /// when it disagrees. False if it does not know its place, or disagrees already.
   bool accept();
 
-  /// Balls and focal lengths were found to be these. Names are still sought by the layout as it was: they do not
-  /// depend on millimetres.
+  /// Balls and focal lengths were found to be these. A search for names begins anew.
   void correct(const CameraModel& camera, const MarkerLayout& markers);
 
   /// Learns on from what others found for it, as admitted; false, and nothing changes, if its method cannot.

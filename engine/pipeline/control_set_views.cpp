@@ -16,6 +16,26 @@ constexpr double kContactHeightM = 0.2;
 // A refinement was asked for: it stands unless it clearly knows less than the camera by itself.
 constexpr double kWorseThanAlone = 1.25;
 
+RefinementOutcome outcomeOf(RigRefinement::Correction correction) {
+  switch (correction) {
+    case RigRefinement::Correction::kNotSought:
+      return RefinementOutcome::kCameras;
+    case RigRefinement::Correction::kFound:
+      return RefinementOutcome::kCorrected;
+    case RigRefinement::Correction::kNotNeeded:
+      return RefinementOutcome::kKept;
+    case RigRefinement::Correction::kUnsound:
+      return RefinementOutcome::kUnsound;
+    case RigRefinement::Correction::kTooFar:
+      return RefinementOutcome::kTooFar;
+    case RigRefinement::Correction::kCamerasTooFar:
+      return RefinementOutcome::kCamerasTooFar;
+    case RigRefinement::Correction::kNoAnswer:
+      break;
+  }
+  return RefinementOutcome::kNoAnswer;
+}
+
 }  // namespace
 
 NamedBalls ControlSet::namedBalls(const Observation& observation, const Tracker& tracker, bool outside_gate) const {
@@ -100,6 +120,7 @@ void ControlSet::endRefinement(RefinementOutcome outcome) {
   ++report_.ended;
   report_.outcome = outcome;
   report_.balls_off_m = report_.focal_off = 0.0;
+  report_.balls_hardly_seen = refinement_->ballsHardlySeen();
   for (int m = 0; m < markers_.count(); ++m)
     report_.balls_off_m = std::max(report_.balls_off_m,
                                    (markers_.inBody(markerId(m)) - rig_markers_.inBody(markerId(m))).norm());
@@ -180,21 +201,7 @@ void ControlSet::takeRefinement(const Eigen::Vector3d& helicopter_in_world) {
     refined_[i] = true;
   }
   if (placed) refinement_->startAfresh();
-  const bool refused = correction == RigRefinement::Correction::kUnsound ||
-                       correction == RigRefinement::Correction::kTooFar;
-  if (!corrects && !refused && !refinement_->succeeded()) return endRefinement(RefinementOutcome::kNoAnswer);
-  switch (correction) {
-    case RigRefinement::Correction::kNotSought:
-      return endRefinement(RefinementOutcome::kCameras);
-    case RigRefinement::Correction::kFound:
-      return endRefinement(RefinementOutcome::kCorrected);
-    case RigRefinement::Correction::kNotNeeded:
-      return endRefinement(RefinementOutcome::kKept);
-    case RigRefinement::Correction::kUnsound:
-      return endRefinement(RefinementOutcome::kUnsound);
-    case RigRefinement::Correction::kTooFar:
-      return endRefinement(RefinementOutcome::kTooFar);
-  }
+  endRefinement(outcomeOf(correction));
 }
 
 }  // namespace helical

@@ -224,7 +224,7 @@ void Engine::saveCalibration(const std::filesystem::path& file, std::optional<Ca
 void Engine::adoptCalibration(const std::filesystem::path& file, std::optional<CameraId> only) {
   SavedCalibration saved = loadCalibration(file);
   if (only) saved = onlyOf(saved, implementation_->rig.cameras[static_cast<std::size_t>(only->index())]);
-  for (const CalibrationOrder& order : adoptOrders(saved, implementation_->rig))
+  for (const CalibrationOrder& order : adoptOrders(saved, implementation_->rig, snapshot().markers))
     if (!orderCalibration(order))
       throw Error(ErrorKind::kSystem, "the engine is still busy with earlier orders", file.string(),
                   "try again");

@@ -125,7 +125,7 @@ void Engine::Implementation::obeyCalibrationOrders(TimeNs now) {
     if (camera >= rig.cameras.size()) continue;
     const char* refusal = loop.orderCalibration(order);
     if (tap != nullptr) tap->onCalibrationOrder(order, now);
-    raise(announcer.ordered(now, camera, order.kind, refusal));
+    raise(announcer.ordered(now, order, refusal));
   }
 }
 

@@ -2488,8 +2488,24 @@ m/s</translation>
         <translation>Kugeln und Brennweiten bleiben: mit den gefundenen spränge die Lage zu weit zum Weiterfliegen</translation>
     </message>
     <message>
-        <source>Refinement without an answer: nothing is changed</source>
-        <translation>Nachbestimmung ohne Ergebnis: nichts ist geändert</translation>
+        <source>Refinement without an answer: the images do not fit together; nothing is changed</source>
+        <translation>Nachbestimmung ohne Ergebnis: die Bilder passen nicht zusammen; nichts ist geändert</translation>
+    </message>
+    <message>
+        <source>Nothing is changed: by the refined cameras the pose would jump too far to fly on</source>
+        <translation>Nichts ist geändert: mit den nachbestimmten Kameras spränge die Lage zu weit zum Weiterfliegen</translation>
+    </message>
+    <message>
+        <source>Balls stay; not judged, for they hardly ever lay where the pose says:</source>
+        <translation>Kugeln bleiben; nicht beurteilt, weil kaum je dort, wo die Lage sagt:</translation>
+    </message>
+    <message>
+        <source>placed by the loaded calibration, but its balls are not used, off by up to:</source>
+        <translation>steht nach der geladenen Kalibrierung, deren Kugeln aber nicht verwendet werden, daneben um bis zu:</translation>
+    </message>
+    <message>
+        <source>%.1f mm</source>
+        <translation>%.1f mm</translation>
     </message>
     <message>
         <source>Refinement broken off: a camera was moved, frozen or placed meanwhile; nothing was changed. Ask again</source>

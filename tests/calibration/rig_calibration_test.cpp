@@ -336,7 +336,8 @@ RecordingOptions freeRunning(double duration_s) {
 /// Within 3 % of a period: the noise of the light's places pulls a delay that much.
 void expectDelays(const RigCalibration& solved, const std::vector<double>& late_s) {
   EXPECT_TRUE(solved.delays);
-  for (std::size_t c = 0; c < late_s.size(); ++c) EXPECT_NEAR(solved.cameras[c].late_s, late_s[c], 1e-3) << c;
+  for (std::size_t c = 0; c < late_s.size(); ++c)
+    EXPECT_NEAR(solved.cameras[c].late_s.value(), late_s[c], 1e-3) << c;
 }
 
 TEST(RigCalibration, DelaysBetweenCamerasAreFoundByALight) {
@@ -365,7 +366,7 @@ TEST(RigCalibration, DelaysAreFoundAmongFalseCentroids) {
     EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
     ASSERT_TRUE(solved.delays);
     for (std::size_t c = 0; c < 4; ++c)
-      EXPECT_NEAR(solved.cameras[c].late_s, recording.late_s[c], 0.004) << together << c;
+      EXPECT_NEAR(solved.cameras[c].late_s.value(), recording.late_s[c], 0.004) << together << c;
     EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.015) << together;
   }
 }
@@ -398,7 +399,7 @@ TEST(RigCalibration, ASlowTargetShowsNoDelays) {
   recording.late_s = {0.0, -0.0015, 0.001, 0.0};
   const MadeRecording made = wavedLight(recording, 41);
   const RigCalibration solved = solve(made.unposed(), made.rows);
-  for (const CalibratedCamera& c : solved.cameras) EXPECT_EQ(c.late_s, 0.0) << c.label;
+  for (const CalibratedCamera& c : solved.cameras) EXPECT_EQ(c.late_s.value(), 0.0) << c.label;
   EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.02);
 }
 
@@ -431,7 +432,7 @@ TEST(RigCalibration, StampsThatAreFramesOffAreFound) {
     EXPECT_NE(solved.verdict, RigVerdict::kBad) << late << reasonsOf(solved);
     ASSERT_TRUE(solved.delays) << late;
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(solved.cameras[c].late_s, recording.late_s[c], 0.004) << late << c;
+      EXPECT_NEAR(solved.cameras[c].late_s.value(), recording.late_s[c], 0.004) << late << c;
     EXPECT_LT(poseErrors(made.cameras, posesOf(solved), true).metres, 0.02) << late;
   }
 }
@@ -446,8 +447,8 @@ TEST(RigCalibration, OfTwoCamerasTheOtherIsLate) {
   const MadeRecording made = wavedLight(recording, 47);
   const RigCalibration solved = solve(made.unposed(), made.rows);
   EXPECT_NE(solved.verdict, RigVerdict::kBad) << reasonsOf(solved);
-  EXPECT_EQ(solved.cameras[0].late_s, 0.0);
-  EXPECT_NEAR(solved.cameras[1].late_s, -0.3, 0.015);
+  EXPECT_EQ(solved.cameras[0].late_s.value(), 0.0);
+  EXPECT_NEAR(solved.cameras[1].late_s.value(), -0.3, 0.015);
 }
 
 /// A board may go without names of its points, and its cameras without a common rhythm.
@@ -581,6 +582,22 @@ TEST(RigCalibration, RowsPutTogetherRememberTheirStamps) {
   for (const SightingTable& table : bringTogether(made.rows, made.cameras, "made up"))
     EXPECT_NEAR(table.stamps_after_s[1] - table.stamps_after_s[0],
                 table.timing == Timing::kTogether ? 0.005 : 0.0, 1e-9);
+}
+
+TEST(RigCalibration, ADelayIsNotToldOfACameraThatIsNotPlaced) {
+  RecordingOptions recording;
+  recording.duration_s = 20.0;
+  recording.together = false;
+  recording.late_s = {0.0, -0.02, 0.012, 0.005};
+  MadeRecording made = wavedLight(recording, 43);
+  for (PointRow& row : made.rows.rows)
+    if (row.camera == 3) row.time_s += 1000.0;
+  const RigCalibration solved = solve(made.unposed(), made.rows);
+  ASSERT_TRUE(solved.delays);
+  ASSERT_FALSE(solved.cameras[3].camera_from_world.has_value());
+  EXPECT_FALSE(solved.cameras[3].late_s.has_value());
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(solved.cameras[c].late_s.value(), recording.late_s[c], 2e-3) << c;
 }
 
 TEST(RigCalibration, CameraThatSharesNothingIsNamed) {

@@ -124,6 +124,31 @@ TEST_P(SeedWithoutOneOf, BearsAMissingBall) {
 
 INSTANTIATE_TEST_SUITE_P(FiveToTwelveBalls, SeedWithoutOneOf, testing::Range(5, 13));
 
+TEST(SubsetSeeds, NameByTheBallsThatTheyWereCorrectedTo) {
+  const CameraModel camera = viewCamera();
+  for (const int balls : {4, 6}) {
+    Random random(77);
+    for (int i = 0; i < 20; ++i) {
+      RandomView view = randomView(random, balls, 0.0);
+      const MarkerLayout others = randomView(random, balls, 0.0).layout;
+      SubsetSeeds corrected(camera, others);
+      corrected.correct(view.layout);
+      if (balls == 6 && i % 2 == 1) view.pixels.pop_back();
+      corrected.start(view.pixels, ViewSide::kEither);
+      std::vector<SeedLabelling> found;
+      while (!corrected.done())
+        if (const auto seed = corrected.next(kLargestRmsPx)) found.push_back(*seed);
+      const std::vector<SeedLabelling> wanted = subsetSeeds(view);
+      ASSERT_FALSE(wanted.empty());
+      ASSERT_EQ(found.size(), wanted.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_TRUE(found[k].labelling == wanted[k].labelling);
+        EXPECT_EQ(bestRms(found[k]), bestRms(wanted[k]));
+      }
+    }
+  }
+}
+
 TEST(SubsetSeeds, KnowsWhatItCanName) {
   const CameraModel camera = viewCamera();
   Random random(5);

@@ -6,10 +6,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/geometry/rotation.h"
+#include "engine/pipeline/announcer.h"
 #include "engine/pipeline/calibration_record.h"
 #include "engine/pipeline/flight_tap.h"
 #include "tests/pipeline/flight_fixture.h"
@@ -106,7 +109,7 @@ TEST(CalibrationOrder, WhatOneFlightLearntAnotherOneAdopts) {
   EXPECT_EQ(saved.cameras[0].method, "given");
   EXPECT_EQ(saved.cameras[2].method, "joint");
   Flight second(rig);
-  for (const CalibrationOrder& order : adoptOrders(saved, rig))
+  for (const CalibrationOrder& order : adoptOrders(saved, rig, rig.markers_in_body))
     EXPECT_EQ(second.lock_step.orderCalibration(order), nullptr);
   second.run(3);
   EXPECT_EQ(second.camera(2).estimate.status, CameraStatus::kCalibrated);
@@ -186,11 +189,57 @@ TEST(CalibrationOrder, ACalibrationOfOtherBallsIsRefused) {
   EXPECT_THROW(giveCalibration(saved, rig), Error);
 }
 
+TEST(CalibrationOrder, BallsOfALoadedCalibrationAreNotTakenOverAndItIsSaid) {
+  const RigConfig rig = test::shippedRig("paper", 6);
+  SavedCalibration saved;
+  saved.cameras.push_back({"1", "joint", *rig.cameras[0].camera_from_world, Matrix6d::Zero()});
+  const Announcer announcer(rig);
+  const auto told = [&](const MarkerLayout& flown_with) {
+    const CalibrationOrder order = adoptOrders(saved, rig, flown_with).at(0);
+    return std::string(announcer.ordered(0, order, nullptr).text.data());
+  };
+  const std::string as_always = "Camera 1: believed to stand where the loaded calibration says";
+  EXPECT_EQ(told(rig.markers_in_body), as_always);
+  std::vector<Eigen::Vector3d> others(rig.markers_in_body.all().begin(), rig.markers_in_body.all().end());
+  others[2].z() += 1.2e-3;
+  const std::string refused_balls =
+      "Camera 1: placed by the loaded calibration, but its balls are not used, off by up to: 1.2 mm";
+  // It was found with the rig's balls, and others are flown with.
+  EXPECT_EQ(told(MarkerLayout(others, rig.markers_in_body.radius())), refused_balls);
+  saved.markers_in_body = others;
+  EXPECT_EQ(told(rig.markers_in_body), refused_balls);
+  EXPECT_EQ(told(MarkerLayout(others, rig.markers_in_body.radius())), as_always);
+  saved.markers_in_body.pop_back();
+  EXPECT_THROW(adoptOrders(saved, rig, rig.markers_in_body), Error);
+}
+
+/// What it shows contradicts the others: it is taken out, as after a knock, and the others stay.
+TEST(CalibrationOrder, AnAdoptedFocalLengthThatDoesNotFitIsLaidAtNoOthersDoor) {
+  for (const double scale : {0.95, 0.99, 1.01, 1.05}) {
+    const RigConfig rig = test::shippedRig("calibrated", 3);
+    Flight flight(rig);
+    flight.run(10 * kSecond);
+    CalibrationOrder order;
+    order.kind = CalibrationOrderKind::kAdopt;
+    order.camera = cameraId(1);
+    order.camera_from_world = *rig.cameras[1].camera_from_world;
+    order.focal_scale = scale;
+    ASSERT_EQ(flight.lock_step.orderCalibration(order), nullptr);
+    flight.run(4 * kSecond);
+    EXPECT_FALSE(flight.now.verdict.crashed) << scale;
+    EXPECT_EQ(flight.camera(1).knocks_found, 1) << scale;
+    for (const std::size_t other : {0u, 2u}) {
+      EXPECT_EQ(flight.camera(other).knocks_found, 0) << scale;
+      EXPECT_EQ(flight.camera(other).estimate.status, CameraStatus::kCalibrated) << scale;
+    }
+  }
+}
+
 TEST(CalibrationOrder, ACalibrationOfAnotherRigIsRefused) {
   SavedCalibration saved;
   saved.cameras.push_back({"nobody", "joint", {}, Matrix6d::Zero()});
   RigConfig rig = test::shippedRig("paper", 6);
-  EXPECT_THROW(adoptOrders(saved, rig), Error);
+  EXPECT_THROW(adoptOrders(saved, rig, rig.markers_in_body), Error);
   EXPECT_THROW(giveCalibration(saved, rig), Error);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/config/plan_file.h"
@@ -185,6 +186,42 @@ TEST(SelfCalibration, BallsThatAreFartherOffThanTheyMayBeStayAndItIsSaid) {
   const SelfCalibratedFlight refined(rig, true);
   EXPECT_EQ(refined.now.refinement.outcome, RefinementOutcome::kUnsound);
   EXPECT_TRUE(std::ranges::equal(refined.now.markers.all(), rig.markers_in_body.all()));
+}
+
+TEST(SelfCalibration, ABallThatLiesWhereItCannotBeIsNotSaidToBeRight) {
+  for (std::size_t ball = 0; ball < 4; ++ball) {
+    RigConfig rig = rigThatCorrects(2, 5e-4, 0.0);
+    std::vector<Eigen::Vector3d> balls(rig.markers_in_body.all().begin(), rig.markers_in_body.all().end());
+    balls[ball].y() += 10e-3;
+    rig.simulation.markers_before = MarkerLayout(balls, rig.markers_in_body.radius());
+    const SelfCalibratedFlight refined(rig, true);
+    EXPECT_NE(refined.now.refinement.outcome, RefinementOutcome::kCorrected);
+    EXPECT_TRUE(refined.now.refinement.outcome != RefinementOutcome::kKept ||
+                refined.now.refinement.balls_hardly_seen > 0);
+  }
+}
+
+TEST(SelfCalibration, ASecondRefinementDoesNotUndoWhatTheFirstFound) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    RigConfig rig = rigThatCorrects(seed, 1e-3, 0.0);
+    rig.simulation.marker_error_m = 1e-3;
+    int tick = 0, again_at = 0;
+    std::optional<MarkerLayout> found;
+    const SelfCalibratedFlight flown(rig, true, "hover", [&](LockStep& flight, const EngineSnapshot& now) {
+      ++tick;
+      if (again_at == 0 && now.refinement.ended == 1) {
+        again_at = tick + 3 * kTicksPerSecond;
+        found = now.markers;
+      }
+      if (tick == again_at) {
+        EXPECT_EQ(flight.orderCalibration(orderFor(0, CalibrationOrderKind::kRefine)), nullptr);
+      }
+    });
+    ASSERT_TRUE(found);
+    EXPECT_EQ(flown.now.refinement.ended, 2u);
+    EXPECT_EQ(flown.now.refinement.outcome, RefinementOutcome::kKept);
+    EXPECT_TRUE(std::ranges::equal(flown.now.markers.all(), found->all())) << seed;
+  }
 }
 
 /// The camera jumps some frames before the balls are corrected.

@@ -56,7 +56,7 @@ CalibratedCamera reportCamera(const RigSolution& s, std::size_t index,
   if (c.camera_from_world) c.distance_m = medianDistance(s, index);
   if (!s.stamps_late_s.empty()) c.late_s = s.stamps_late_s[index];
   // Against its own stamps, not those of the items that its rows were put to.
-  if (!s.table.late_s.empty()) c.late_s += s.table.late_s[index] - s.table.stamps_after_s[index];
+  if (!s.table.late_s.empty()) *c.late_s += s.table.late_s[index] - s.table.stamps_after_s[index];
   c.beyond_reach = beyondDelayReach(s.table, index);
   c.covariance = covariance;
   if (covariance) {
@@ -73,9 +73,9 @@ CalibratedCamera reportCamera(const RigSolution& s, std::size_t index,
 void countDelaysFromFirst(RigCalibration& result) {
   const auto first = std::find_if(result.cameras.begin(), result.cameras.end(),
                                   [](const CalibratedCamera& c) { return c.camera_from_world.has_value(); });
-  if (first == result.cameras.end()) return;
-  const double of_first = first->late_s;
-  for (CalibratedCamera& c : result.cameras) c.late_s -= c.camera_from_world ? of_first : 0.0;
+  const double of_first = first == result.cameras.end() ? 0.0 : *first->late_s;
+  for (CalibratedCamera& c : result.cameras)
+    c.late_s = c.camera_from_world ? std::optional(*c.late_s - of_first) : std::nullopt;
 }
 
 void reportBody(const FreeBody& body, const RigCovariance& covariance, RigCalibration& result) {

@@ -49,7 +49,9 @@ struct CalibratedCamera {
   double orientation_sigma_deg = 0.0;
   double distance_m = 0.0;    ///< median, to what it saw
   int image_parts = 0;        ///< of 16 parts of the image, those with inliers
-  double late_s = 0.0;        ///< it saw so much later than its time stamps say, against the first one
+  /// It saw so much later than its time stamps say, against the first one that is placed; nothing for one
+  /// that is not, which was compared with others.
+  std::optional<double> late_s = 0.0;
   bool beyond_reach = false;  ///< or even later: more than a frame cannot be told
   double focal_scale = 1.0;   ///< over the given focal lengths
   std::optional<double> focal_sigma =

@@ -14,10 +14,13 @@ constexpr double kRound = 0.4;  ///< cells that a point of a ball's outline may 
 
 int pointsOn(const OutlineCircle& circle, std::span<const OutlinePoint> outline) {
   const double least = std::max(0.0, circle.radius - kRound), most = circle.radius + kRound;
-  return static_cast<int>(std::count_if(outline.begin(), outline.end(), [&](const OutlinePoint& point) {
+  const double least2 = least * least, most2 = most * most;
+  int count = 0;
+  for (const OutlinePoint& point : outline) {  // without branches, which nobody could predict
     const double dx = point.x - circle.centre.x, dy = point.y - circle.centre.y, d2 = dx * dx + dy * dy;
-    return d2 > least * least && d2 < most * most;
-  }));
+    count += static_cast<int>(d2 > least2) & static_cast<int>(d2 < most2);
+  }
+  return count;
 }
 
 OutlineCircle throughPointsOn(const OutlineCircle& circle, std::span<const OutlinePoint> outline) {

@@ -8,8 +8,12 @@
 namespace helical {
 namespace {
 
-constexpr int kSteps = 12;
 constexpr std::size_t kTries = 3;  ///< of the directions that something may hide a part from
+/// Of each try, and from there on of the best and of those that may come out better: elsewhere, and with no
+/// more than so many times its squares.
+constexpr int kFirstSteps = 4, kSteps = 8;
+constexpr float kElsewhere = 0.25F;  ///< cells
+constexpr double kMayBeBetter = 2.0;
 /// A disc of which a quarter is hidden: its radius over that of a disc of what is seen; from that radius on,
 /// how far its centre lies from the centre of gravity, and the edge from its centre.
 constexpr float kRadius = 1.12F, kShift = 0.24F, kOffset = 0.4F;
@@ -34,6 +38,11 @@ CutDisc cutFrom(const std::array<float, 2>& normal, const DiscValues& disc) {
   return cut;
 }
 
+bool isElsewhere(const CutDisc& a, const CutDisc& b) {
+  const float x = a.disc[kDiscX] - b.disc[kDiscX], y = a.disc[kDiscY] - b.disc[kDiscY];
+  return x * x + y * y > kElsewhere * kElsewhere;
+}
+
 }  // namespace
 
 NearestCut nearestCut(const DiscValues& disc, DiscCells& cells) {
@@ -45,8 +54,16 @@ NearestCut nearestCut(const DiscValues& disc, DiscCells& cells) {
   const auto isBetter = [](const CutDisc& a, const CutDisc& b) { return a.squares < b.squares; };
   const auto tried = cuts.begin() + kTries;
   std::partial_sort(cuts.begin(), tried, cuts.end(), isBetter);
-  std::for_each(cuts.begin(), tried, [&](CutDisc& cut) { cut.descend(cells, kSteps); });
-  const CutDisc& best = *std::min_element(cuts.begin(), tried, isBetter);
+  std::for_each(cuts.begin(), tried, [&](CutDisc& cut) { cut.descend(cells, kFirstSteps); });
+  std::sort(cuts.begin(), tried, isBetter);
+  CutDisc best = cuts[0];
+  best.descend(cells, kSteps);
+  for (std::size_t i = 1; i < kTries; ++i) {
+    CutDisc& other = cuts[i];
+    if (other.squares > kMayBeBetter * best.squares || !isElsewhere(other, best)) continue;
+    other.descend(cells, kSteps);
+    if (isBetter(other, best)) best = other;
+  }
   const DiscSums sums = best.measure(cells);
   return {best, centreCovariance(best, sums, kLeastVariance)};
 }

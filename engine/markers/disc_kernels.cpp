@@ -1,5 +1,8 @@
 #include "engine/markers/disc_kernels.h"
 
+#include <algorithm>
+#include <cmath>
+
 // clang-format off: foreach_target.h includes this file once per instruction set.
 #define HWY_WANT_AVX3_DL
 #undef HWY_TARGET_INCLUDE
@@ -36,21 +39,53 @@ HWY_INLINE Floats storeResidual(std::size_t i, Floats expected, Floats cover, Di
   return residual;
 }
 
+/// Whether all of the cells that are summed beside each other from `i` on lie beyond that squared distance.
+HWY_INLINE bool isBeyond(const DiscTerms& disc, Floats squared, const DiscCells& cells, std::size_t i) {
+  const Tag d;
+  for (std::size_t k = i; k < i + kDiscLanes; k += hn::Lanes(d)) {
+    const Floats dx = hn::Load(d, &cells.x[k]) - disc.x, dy = hn::Load(d, &cells.y[k]) - disc.y;
+    if (!hn::AllTrue(d, hn::Gt(dx * dx + dy * dy, squared))) return false;
+  }
+  return true;
+}
+
+/// Of cells that show nothing of the disc.
+template <class SumsOfCells>
+HWY_INLINE void addAround(Floats around, std::size_t i, DiscCells& cells, SumsOfCells& sums) {
+  const Tag d;
+  for (std::size_t lane = 0; lane < kDiscLanes; lane += hn::Lanes(d))
+    sums.addAround(lane, storeResidual(i + lane, around, all(0.0F), cells),
+                   hn::Load(d, &cells.given[i + lane]));
+}
+
+/// Gives `one` each vector of cells that may show something of the disc, by its first cell, the lane that
+/// stands in its sums, and the way there from the disc's centre; and adds up all others.
+template <class SumsOfCells, class One>
+HWY_INLINE void forEachNear(const DiscTerms& disc, Floats squared, DiscCells& cells, SumsOfCells& sums,
+                            One one) {
+  const Tag d;
+  for (std::size_t i = 0; i < cells.count; i += kDiscLanes) {
+    if (isBeyond(disc, squared, cells, i)) {
+      addAround(disc.around, i, cells, sums);
+      continue;
+    }
+    for (std::size_t lane = 0; lane < kDiscLanes; lane += hn::Lanes(d))
+      one(i + lane, lane, hn::Load(d, &cells.x[i + lane]) - disc.x, hn::Load(d, &cells.y[i + lane]) - disc.y);
+    sums.next();
+  }
+}
+
 void measureAll(const DiscValues& p, DiscCells& cells, DiscSums& totals) {
   const Tag d;
   const DiscTerms disc(p);
   Sums<kDiscParameters> sums;
-  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
-    const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y,
-                 given = hn::Load(d, &cells.given[i]);
-    if (isOutside(disc, dx, dy)) {
-      sums.addAround(i, storeResidual(i, disc.around, all(0.0F), cells), given);
-      continue;
-    }
-    const ShadedCell cell = shaded(litCell(disc, dx, dy), disc.around);
-    const Floats residual = storeResidual(i, disc.around + cell.above, cell.slope[kDiscAmbient], cells);
-    sums.add(i, cell.slope, residual, given);
-  }
+  forEachNear(disc, disc.outside, cells, sums,
+              [&](std::size_t i, std::size_t lane, Floats dx, Floats dy) HWY_ATTR {
+                const ShadedCell cell = shaded(litCell(disc, dx, dy), disc.around);
+                sums.add(lane, cell.slope,
+                         storeResidual(i, disc.around + cell.above, cell.slope[kDiscAmbient], cells),
+                         hn::Load(d, &cells.given[i]));
+              });
   sums.store(totals);
 }
 
@@ -61,17 +96,11 @@ void measureBoth(const DiscValues& p, const SecondPicture& picture, DiscCells& f
   const Floats ratio = all(picture.ratio), around = all(picture.around);
   Sums<kDiscParameters> sums;
   Sums<kSecondParameters> second_sums;
-  for (std::size_t i = 0; i < first.count; i += hn::Lanes(d)) {
-    const Floats dx = hn::Load(d, &first.x[i]) - disc.x, dy = hn::Load(d, &first.y[i]) - disc.y,
-                 given = hn::Load(d, &first.given[i]), second_given = hn::Load(d, &second.given[i]);
-    if (isOutside(disc, dx, dy)) {
-      sums.addAround(i, storeResidual(i, disc.around, all(0.0F), first), given);
-      second_sums.addAround(i, storeResidual(i, around, all(0.0F), second), second_given);
-      continue;
-    }
-    LitCell lit = litCell(disc, dx, dy);
+  const auto addNear = [&](std::size_t i, std::size_t lane) HWY_ATTR {
+    LitCell lit = litCell(disc, hn::Load(d, &first.x[i]) - disc.x, hn::Load(d, &first.y[i]) - disc.y);
     const ShadedCell cell = shaded(lit, disc.around);
-    sums.add(i, cell.slope, storeResidual(i, disc.around + cell.above, lit.cover, first), given);
+    sums.add(lane, cell.slope, storeResidual(i, disc.around + cell.above, lit.cover, first),
+             hn::Load(d, &first.given[i]));
     const Floats by_ratio = lit.cover * lit.light;
     for (Floats* light : {&lit.light, &lit.turned_x, &lit.turned_y, &lit.grown, &lit.by_light_x,
                           &lit.by_light_y, &lit.by_light_z})
@@ -80,27 +109,21 @@ void measureBoth(const DiscValues& p, const SecondPicture& picture, DiscCells& f
     const Floats(&by)[kDiscParameters] = other.slope;
     const Floats slope[kSecondParameters] = {by[0], by[1], by[2], ratio * by[3], by[4],
                                              by[5], by[6], by[7], by_ratio};
-    second_sums.add(i, slope, storeResidual(i, around + other.above, lit.cover, second), second_given);
+    second_sums.add(lane, slope, storeResidual(i, around + other.above, lit.cover, second),
+                    hn::Load(d, &second.given[i]));
+  };
+  for (std::size_t i = 0; i < first.count; i += kDiscLanes) {
+    if (isBeyond(disc, disc.outside, first, i)) {
+      addAround(disc.around, i, first, sums);
+      addAround(around, i, second, second_sums);
+      continue;
+    }
+    for (std::size_t lane = 0; lane < kDiscLanes; lane += hn::Lanes(d)) addNear(i + lane, lane);
+    sums.next();
+    second_sums.next();
   }
   sums.store(first_totals);
   second_sums.store(second_totals);
-}
-
-constexpr float kSpreadStep = 0.5F;  ///< cells
-
-/// Second derivatives by the disc's place, of the cells around its outline.
-HWY_INLINE void spreadSlopes(const DiscTerms& disc, Floats dx, Floats dy, Floats* slope) {
-  const Floats apart = all(kSpreadStep), over_twice = all(0.5F * 0.5F / kSpreadStep);
-  const auto at = [&](Floats x, Floats y) HWY_ATTR { return shaded(litCell(disc, x, y), disc.around); };
-  const ShadedCell right = at(dx - apart, dy), left = at(dx + apart, dy), below = at(dx, dy - apart),
-                   above = at(dx, dy + apart);
-  const Floats inner = positive(disc.inside - apart);
-  const auto is_rim = hn::Ge(dx * dx + dy * dy, inner * inner);
-  const auto slopeOf = [&](Floats more, Floats less)
-                           HWY_ATTR { return hn::IfThenElseZero(is_rim, over_twice * (more - less)); };
-  slope[kSpreadXX] = slopeOf(right.slope[kDiscX], left.slope[kDiscX]);
-  slope[kSpreadXY] = all(2.0F) * slopeOf(right.slope[kDiscY], left.slope[kDiscY]);
-  slope[kSpreadYY] = slopeOf(below.slope[kDiscY], above.slope[kDiscY]);
 }
 
 void measureSpread(const DiscValues& p, DiscCells& cells, DiscSums& totals) {
@@ -108,22 +131,18 @@ void measureSpread(const DiscValues& p, DiscCells& cells, DiscSums& totals) {
   const DiscTerms disc(p);
   const Floats zero = all(0.0F), inner = positive(disc.inside - all(kSpreadStep)), inside = inner * inner;
   const float outer = p[kDiscRadius] + kReach + kSpreadStep;
-  const Floats outside = all(outer * outer);
   Sums<kSpreadParameters> sums;
-  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
-    const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y,
-                 given = hn::Load(d, &cells.given[i]), d2 = dx * dx + dy * dy;
-    if (hn::AllTrue(d, hn::Gt(d2, outside))) {
-      sums.addAround(i, storeResidual(i, disc.around, zero, cells), given);
-      continue;
-    }
-    const ShadedCell cell = shaded(litCell(disc, dx, dy), disc.around);
-    Floats slope[kSpreadParameters] = {cell.slope[0], cell.slope[1], cell.slope[2], cell.slope[3],
-                                       cell.slope[4], cell.slope[5], cell.slope[6], cell.slope[7],
-                                       zero,          zero,          zero};
-    if (!hn::AllTrue(d, hn::Lt(d2, inside))) spreadSlopes(disc, dx, dy, slope);
-    sums.add(i, slope, storeResidual(i, disc.around + cell.above, cell.slope[kDiscAmbient], cells), given);
-  }
+  forEachNear(disc, all(outer * outer), cells, sums,
+              [&](std::size_t i, std::size_t lane, Floats dx, Floats dy) HWY_ATTR {
+                const ShadedCell cell = shaded(litCell(disc, dx, dy), disc.around);
+                const Floats(&by)[kDiscParameters] = cell.slope;
+                Floats slope[kSpreadParameters] = {by[0], by[1], by[2], by[3], by[4], by[5],
+                                                   by[6], by[7], zero,  zero,  zero};
+                if (!hn::AllTrue(d, hn::Lt(dx * dx + dy * dy, inside))) spreadSlopes(disc, dx, dy, slope);
+                sums.add(lane, slope,
+                         storeResidual(i, disc.around + cell.above, cell.slope[kDiscAmbient], cells),
+                         hn::Load(d, &cells.given[i]));
+              });
   sums.store(totals);
 }
 
@@ -131,25 +150,29 @@ void measureSmeared(const DiscValues& p, const DiscMotion& motion, DiscCells& ce
   const Tag d;
   const DiscTerms disc(p);
   const Floats zero = all(0.0F), share = all(1.0F / static_cast<float>(motion.moments));
+  const float half = std::sqrt(motion.half_x * motion.half_x + motion.half_y * motion.half_y);
+  const float outer = p[kDiscRadius] + kReach + half;
   Sums<kSmearParameters> sums;
-  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
-    const Floats dx = hn::Load(d, &cells.x[i]) - disc.x, dy = hn::Load(d, &cells.y[i]) - disc.y;
-    Floats slope[kSmearParameters] = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero},
-           above = zero;
-    for (int k = 0; k < motion.moments; ++k) {
-      const float at = (2.0F * static_cast<float>(k) + 1.0F) / static_cast<float>(motion.moments) - 1.0F;
-      const Floats x = dx - all(at * motion.half_x), y = dy - all(at * motion.half_y);
-      if (isOutside(disc, x, y)) continue;
-      const ShadedCell cell = shaded(litCell(disc, x, y), disc.around);
-      above = above + share * cell.above;
-      for (int a = 0; a < kDiscAround; ++a) slope[a] = slope[a] + share * cell.slope[a];
-      slope[kSmearHalfX] = slope[kSmearHalfX] + all(at) * share * cell.slope[kDiscX];
-      slope[kSmearHalfY] = slope[kSmearHalfY] + all(at) * share * cell.slope[kDiscY];
-    }
-    const Floats cover = slope[kDiscAmbient];
-    slope[kDiscAround] = all(1.0F) - cover;
-    sums.add(i, slope, storeResidual(i, disc.around + above, cover, cells), hn::Load(d, &cells.given[i]));
-  }
+  forEachNear(disc, all(outer * outer), cells, sums,
+              [&](std::size_t i, std::size_t lane, Floats dx, Floats dy) HWY_ATTR {
+                Floats above = zero;
+                Floats slope[kSmearParameters] = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+                for (int k = 0; k < motion.moments; ++k) {
+                  const float at =
+                      (2.0F * static_cast<float>(k) + 1.0F) / static_cast<float>(motion.moments) - 1.0F;
+                  const Floats x = dx - all(at * motion.half_x), y = dy - all(at * motion.half_y);
+                  if (hn::AllTrue(d, hn::Gt(x * x + y * y, disc.outside))) continue;
+                  const ShadedCell cell = shaded(litCell(disc, x, y), disc.around);
+                  above = above + share * cell.above;
+                  for (int a = 0; a < kDiscAround; ++a) slope[a] = slope[a] + share * cell.slope[a];
+                  slope[kSmearHalfX] = slope[kSmearHalfX] + all(at) * share * cell.slope[kDiscX];
+                  slope[kSmearHalfY] = slope[kSmearHalfY] + all(at) * share * cell.slope[kDiscY];
+                }
+                const Floats cover = slope[kDiscAmbient];
+                slope[kDiscAround] = all(1.0F) - cover;
+                sums.add(lane, slope, storeResidual(i, disc.around + above, cover, cells),
+                         hn::Load(d, &cells.given[i]));
+              });
   sums.store(totals);
 }
 
@@ -161,8 +184,8 @@ void measureCut(const DiscValues& p, const CutEdge& edge, DiscCells& cells, Disc
   for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
     const Floats x = hn::Load(d, &cells.x[i]), y = hn::Load(d, &cells.y[i]);
     const Floats disc_x = x - disc.x, disc_y = y - disc.y;
-    const ShadedCell cell =
-        isOutside(disc, disc_x, disc_y) ? nothingOf() : shaded(litCell(disc, disc_x, disc_y), disc.around);
+    const bool is_outside = hn::AllTrue(d, hn::Gt(disc_x * disc_x + disc_y * disc_y, disc.outside));
+    const ShadedCell cell = is_outside ? nothingOf() : shaded(litCell(disc, disc_x, disc_y), disc.around);
     const Floats dx = x - all(edge.x), dy = y - all(edge.y);
     const CoveredPart part = coveredPart(all(edge.offset) - (nx * dx + ny * dy), hn::Abs(nx), hn::Abs(ny));
     const Floats seen = part.share;
@@ -173,8 +196,9 @@ void measureCut(const DiscValues& p, const CutEdge& edge, DiscCells& cells, Disc
     slope[kCutOffset] = by_offset;
     slope[kCutTurn] = by_offset * (ny * dx - nx * dy);
     slope[kCutLevel] = one - seen;
-    sums.add(i, slope, storeResidual(i, level + seen * above, slope[kDiscAmbient], cells),
+    sums.add(i % kDiscLanes, slope, storeResidual(i, level + seen * above, slope[kDiscAmbient], cells),
              hn::Load(d, &cells.given[i]));
+    if ((i + hn::Lanes(d)) % kDiscLanes == 0) sums.next();
   }
   sums.store(totals);
 }

@@ -11,7 +11,7 @@ namespace helical {
 namespace {
 
 constexpr double kLongTail = 1.8;  ///< mean square over that of a normal distribution: something does not fit
-constexpr double kSettled = 3e-3;  ///< cells: a smaller step is the last
+constexpr double kSettled = 5e-3;  ///< cells: a smaller step is the last
 /// Of motions, an eighth of a turn apart.
 constexpr std::array<std::array<double, 2>, 8> kAxes{{{1.0, 0.0},
                                                       {0.9238795325112867, 0.3826834323650898},
@@ -162,7 +162,7 @@ bool ShadedDisc::descend(int steps) {
     brightness_.around += static_cast<float>(change[kSecondAround]);
     is_current_ = false;
     if (!(p_[kDiscRadius] > kSmallestDisc)) return false;
-    if (k > 1 && moved < kSettled) break;
+    if (k > 0 && moved < kSettled) break;
   }
   return true;
 }

@@ -34,8 +34,8 @@ constexpr double kLeastSmear = 1.07, kSurelySmeared = 1.25;
 constexpr double kMaybeMoved = 4.5;  ///< chi-square that a motion should gain
 /// Of what a disc at rest leaves beyond noise, the share that a motion should explain, by the score test: of
 /// hidden balls it is up to 0.03, of small ones before noise rarely over 0.1; of smeared ones it is over 0.1,
-/// rarely under 0.07.
-constexpr double kMaybeMotion = 0.04;
+/// rarely under 0.07. What is alike on both sides is no hidden ball as often.
+constexpr double kMaybeMotion = 0.04, kLeastMotion = 0.02;
 constexpr double kSurelyCut = 0.3;   ///< excess a cell: of what is hidden and one-sided, no motion is tried
 constexpr double kSurelyLong = 2.8;  ///< elongation: nothing hides so much of a ball that is still found
 constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -166,7 +166,7 @@ std::optional<Disc> DiscFit::fitColour(const CellGrid& grid) {
   if (has_sides && smear.isOver(kLeastSmear)) return std::nullopt;
   disc_.start(window_.neighbour ? window_.binary : outlineOfRest());
   for (int round = 0; round < kRounds; ++round) {
-    disc_.leaveOutHidden();
+    if (!disc_.leaveOutHidden() && round > 0) break;
     if (!disc_.descend(kSteps) || !isPlausible()) return std::nullopt;
   }
   return result();
@@ -182,14 +182,14 @@ OutlineCircle DiscFit::outlineOfRest() const {
 std::optional<Disc> DiscFit::fitMovingOrCut(const CellGrid& grid, const Smear& smear, double motion) {
   const bool is_smeared = window_.region.area >= kFewestSmeared && smear.isOver(kLeastSmear);
   const bool is_large = window_.binary.radius >= kLarge;
-  const bool may_move = is_smeared || motion > kMaybeMotion;
+  const bool may_move = is_smeared || motion > (smear.one_sided ? kMaybeMotion : kLeastMotion);
   if (is_large && (!may_move || smear.one_sided)) return std::nullopt;
   // Of a large ball only one that is seen nearly whole is believed, which no edge hides a part of.
   std::optional<Disc> cut;
   double excess = kAny;
   if (!is_large && !is_smeared && smear.elongation < kSurelyLong) cut = fitCut(excess);
   const bool is_cut = !cut || excess < kSurelyCut * static_cast<double>(window_.real_count);
-  if (!may_move && smear.one_sided && is_cut) return cut;
+  if (!may_move && is_cut) return cut;
   const auto ball = fitMoving(grid, smear, nullptr, excess);
   return ball && ball->excess < excess ? discOf(*ball) : cut;
 }

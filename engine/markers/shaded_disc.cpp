@@ -215,18 +215,22 @@ double ShadedDisc::gainOfMotion() {
   return most / (scale * scale);
 }
 
-void ShadedDisc::leaveOutHidden() {
+bool ShadedDisc::leaveOutHidden() {
   system();
-  is_current_ = false;
   DiscCells& cells = *window_.colour;
   const float around = p_[kDiscAround];
+  unsigned changed = 0;
   for (std::size_t i = 0; i < window_.real_count; ++i) {
     const float expected = cells.value[i] - cells.residual[i] - around;
     cells.given[i] = window_.givenAt(cells.x[i], cells.y[i]);
-    window_.is_marked[i] = cells.cover[i] > 0.5F && cells.value[i] - around < 0.5F * expected ? 1 : 0;
+    const std::uint8_t marked = cells.cover[i] > 0.5F && cells.value[i] - around < 0.5F * expected ? 1 : 0;
+    changed |= static_cast<unsigned>(marked ^ window_.is_marked[i]);
+    window_.is_marked[i] = marked;
   }
   for (std::size_t i = 0; i < window_.real_count; ++i)
     if (window_.is_marked[i] != 0) window_.leaveOut(i, cells);
+  is_current_ = is_current_ && changed == 0;
+  return changed != 0;
 }
 
 ShadedDisc::Quality ShadedDisc::quality() {

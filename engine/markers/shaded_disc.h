@@ -38,8 +38,9 @@ class ShadedDisc {
   bool startBrightness();
   /// To the least squares near to where it stands; false if there are none.
   bool descend(int steps);
-  /// Marks and leaves out what does not fit because something is before the disc, and gives all other cells.
-  void leaveOutHidden();
+  /// Marks and leaves out what does not fit because something is before the disc, and gives all other cells;
+  /// false if these are the cells that were marked already.
+  bool leaveOutHidden();
 
   Quality quality();
   /// Standard deviation of the colour's residuals around the disc.

@@ -34,8 +34,10 @@ struct Disc {
 /// what is left better than chance, the ball moved while the shutter was open (SmearFit), or something hides
 /// a part of it: a straight edge before the disc is fitted, too. If there is none, the circle that most of
 /// the outline lies on is the start, and cells that do not fit are left out. The covariance is that of the
-/// fit, with the scatter of the residuals. Repeats bit for bit on any machine. Allocates in the constructor
-/// only. One thread.
+/// fit, with the scatter of the residuals: squared errors are 0.6 to 1.7 of it. What discCentroid adds for
+/// the outline's sampling, 0.037 cells over the root of the radius as rendered pictures need it, is more than
+/// that before little noise: of pictures sampled finely, squared errors are 0.06 to 0.5 of the centroid's.
+/// Repeats bit for bit on any machine. Allocates in the constructor only. One thread.
 class DiscFit {
  public:
   DiscFit() = default;

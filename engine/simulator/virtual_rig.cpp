@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "engine/base/log.h"
@@ -16,10 +17,6 @@ namespace {
 constexpr TimeNs kWatchPeriod = 5 * kNanosecondsPerMillisecond;
 constexpr TimeNs kTransmitterOff = 2 * kNanosecondsPerSecond;
 constexpr TimeNs kReceiverFailsafe = kNanosecondsPerSecond / 2;
-/// A client's capture threads may start later than its output thread.
-constexpr std::uint64_t kSpareFrames = 30;
-/// Whoever only looks on shall see a helicopter, too.
-constexpr TimeNs kEmptyWithoutTransmitter = 10 * kNanosecondsPerSecond;
 
 }  // namespace
 
@@ -48,7 +45,10 @@ class VirtualRig::Lens {
 };
 
 VirtualRig::VirtualRig(const VirtualRigOptions& options, std::vector<ScheduledFault> faults)
-    : options_(options), faults_(std::move(faults)), done_(faults_.size()) {
+    : options_(options),
+      faults_(std::move(faults)),
+      keeper_(options_.cameras.size(), options_.background_frames),
+      done_(faults_.size()) {
   renewField(monotonicNow());
   for (std::size_t i = 0; i < options_.cameras.size(); ++i) {
     lenses_.push_back(std::make_unique<Lens>(*this, i));
@@ -79,7 +79,8 @@ VirtualRig::Field VirtualRig::field() const {
 }
 
 Verdict VirtualRig::verdict() const {
-  return field().world->verdict();
+  const std::lock_guard lock(mutex_);
+  return flown_ ? flown_->verdict() : Verdict{};
 }
 
 double VirtualRig::flightTime() const {
@@ -93,14 +94,18 @@ void VirtualRig::renewField(TimeNs now) {
   field_.world->holdEmpty();
   held_empty_ = true;
   radio_ = std::make_unique<SimulatedTransmitter>(options_.simulation, field_.world);
-  frames_before_.clear();
-  for (const auto& camera : cameras_) frames_before_.push_back(camera->counts().frames);
+}
+
+/// Locked.
+bool VirtualRig::transmitterOn(TimeNs now) const {
+  return last_packet_ >= 0 && now - last_packet_ <= kTransmitterOff;
 }
 
 void VirtualRig::onSticks(const StickDemand& demand, TimeNs when) {
   const std::lock_guard lock(mutex_);
-  if (last_packet_ < 0 || when - last_packet_ > kTransmitterOff) {
+  if (!transmitterOn(when)) {
     renewField(when);
+    flown_ = field_.world;
     switched_on_ = when;
     log(LogLevel::kInfo, "a transmitter is switched on: the field is empty, then the helicopter is put on its pad");
   }
@@ -115,7 +120,7 @@ void VirtualRig::watch(const std::stop_token& stop) {
     applyFaults(now);
     {
       const std::lock_guard lock(mutex_);
-      letHelicopterIn(now);
+      keepField(now);
       if (!rotors_stopped_ && now - last_packet_ > kReceiverFailsafe) {
         rotors_stopped_ = true;
         radio_->send({}, now - field_.began);
@@ -129,17 +134,13 @@ void VirtualRig::watch(const std::stop_token& stop) {
 }
 
 /// Locked.
-void VirtualRig::letHelicopterIn(TimeNs now) {
-  if (!held_empty_) return;
-  bool seen_empty = true;
-  if (switched_on_ < 0) {
-    seen_empty = now - field_.began > kEmptyWithoutTransmitter;
-  } else {
-    const auto needed = static_cast<std::uint64_t>(options_.background_frames) + kSpareFrames;
-    for (std::size_t i = 0; i < cameras_.size(); ++i)
-      if (cameras_[i]->streaming() && cameras_[i]->counts().frames - frames_before_[i] < needed) seen_empty = false;
-  }
-  if (!seen_empty) return;
+void VirtualRig::keepField(TimeNs now) {
+  std::vector<FieldKeeper::Camera> cameras;
+  for (const auto& camera : cameras_) cameras.push_back({camera->streaming(), camera->counts().frames});
+  const auto switched_on = transmitterOn(now) ? std::optional(switched_on_) : std::nullopt;
+  const bool in = keeper_.helicopterIn(now, switched_on, cameras);
+  if (in == !held_empty_) return;
+  if (!in) return renewField(now);
   field_.world->releaseEmpty();
   held_empty_ = false;
 }

@@ -9,6 +9,7 @@
 #include "engine/geometry/camera_model.h"
 #include "engine/helicopter/helicopter_parameters.h"
 #include "engine/helicopter/marker_layout.h"
+#include "engine/simulator/field_keeper.h"
 #include "engine/simulator/gige/virtual_camera.h"
 #include "engine/simulator/loopback_link.h"
 #include "engine/simulator/simulated_transmitter.h"
@@ -47,9 +48,10 @@ struct ScheduledFault {
 /// The simulated field as real devices on this machine: its cameras speak GigE Vision, its helicopter listens to a
 /// loopback transmitter. Real time, threads of its own.
 ///
-/// When a transmitter is switched on (its first packet, or the first after two silent seconds), a helicopter is taken to
-/// the field, which then is empty until every camera that streams has shown it so. Scheduled times count from there, or
-/// from the start while there was no transmitter. A helicopter that hears nothing for half a second stops its rotors.
+/// When a transmitter is switched on (its first packet, or the first after two silent seconds), the field is emptied, and
+/// a helicopter is put there when its keeper says that the cameras have seen it empty. Scheduled times count from when
+/// the transmitter was switched on, or from the start while there was none. A helicopter that hears nothing for half a
+/// second stops its rotors.
 class VirtualRig {
  public:
   /// Throws Error(kSystem) when an address is taken.
@@ -75,19 +77,21 @@ class VirtualRig {
   void renewField(TimeNs now);
   void onSticks(const StickDemand& demand, TimeNs when);
   void watch(const std::stop_token& stop);
-  void letHelicopterIn(TimeNs now);
+  bool transmitterOn(TimeNs now) const;
+  void keepField(TimeNs now);
   void applyFaults(TimeNs now);
 
   const VirtualRigOptions options_;
   std::vector<ScheduledFault> faults_;
-  mutable std::mutex mutex_;  ///< guards the next seven
+  mutable std::mutex mutex_;  ///< guards the next eight
   Field field_;
+  std::shared_ptr<World> flown_;  ///< the world of the flight that is going on, or was the last
   std::unique_ptr<SimulatedTransmitter> radio_;
   TimeNs switched_on_ = -1;
   TimeNs last_packet_ = -1;
   bool held_empty_ = false;
   bool rotors_stopped_ = true;
-  std::vector<std::uint64_t> frames_before_;  ///< of each camera, when the transmitter was switched on
+  FieldKeeper keeper_;
 
   std::vector<std::unique_ptr<Lens>> lenses_;
   std::vector<std::unique_ptr<gige::VirtualCamera>> cameras_;

@@ -52,6 +52,13 @@ MarkerOptions binaryOptions() {
   return options;
 }
 
+/// Openings and closings by 3 x 3 quads: what BGR images have by pixels. By default Bayer images have neither.
+MarkerOptions quadOpeningOptions() {
+  MarkerOptions options = binaryOptions();
+  options.opening_px = options.closing_px = 5;
+  return options;
+}
+
 /// One picture size: every way to extract its markers, with warm, flushed and displaced caches.
 class SizeBench {
  public:
@@ -67,13 +74,15 @@ class SizeBench {
         binary_(binaryOptions()),
         fitted_(MarkerOptions{}),
         expecting_(MarkerOptions{}),
-        bayer_(binaryOptions()) {
+        bayer_(binaryOptions()),
+        bayer_opened_(quadOpeningOptions()) {
     binary_.setBackground(viewOf(scene_.background, PixelFormat::kBgr8));
     for (Extractor* extractor : {&fitted_, &expecting_}) {
       extractor->setBackground(viewOf(scene_.background, PixelFormat::kBgr8));
       extractor->setIgnoredAreas({{{0.0, 0.0}, {0.2 * width, 0.0}, {0.1 * width, 0.3 * height}}});
     }
-    bayer_.setBackground(viewOf(raw_background_, PixelFormat::kBayerRg8));
+    for (Extractor* extractor : {&bayer_, &bayer_opened_})
+      extractor->setBackground(viewOf(raw_background_, PixelFormat::kBayerRg8));
   }
 
   void measure() {
@@ -83,6 +92,7 @@ class SizeBench {
     add("helical_default", [this] { fitted_.extract(viewOf(scene_.frame, PixelFormat::kBgr8), found_); });
     add("helical_expecting", [this] { expecting_.extract(viewOf(scene_.frame, PixelFormat::kBgr8), found_); });
     add("bayer", [this] { bayer_.extract(viewOf(raw_, PixelFormat::kBayerRg8), found_); });
+    add("bayer_opened", [this] { bayer_opened_.extract(viewOf(raw_, PixelFormat::kBayerRg8), found_); });
     add("all_green", [this] { binary_.extract(viewOf(all_green_, PixelFormat::kBgr8), found_); });
     add("read", [this] { sum_ = sumOfBytes(scene_.frame.data, scene_.frame.total() * 3); });
     bench_.measure(kRounds);
@@ -100,7 +110,8 @@ class SizeBench {
       set("findcontours_over_helical_default", "findcontours", "helical_default");
       set("helical_default_over_read", "helical_default", "read");
       set("helical_expecting_over_read", "helical_expecting", "read");
-      set("bayer_over_bgr", "bayer", "helical");
+      set("bayer_over_bgr", "bayer_opened", "helical");
+      set("bayer_unopened_over_bgr", "bayer", "helical");
       set("all_green_over_normal", "all_green", "helical");
       for (const std::string& way : ways_)
         report["times_us"][way][name_][state] = bench_.medianUs(way + " " + state);
@@ -144,6 +155,7 @@ class SizeBench {
   Extractor fitted_;     ///< as it comes: discs, a background that follows the light, and an ignored area
   Extractor expecting_;  ///< the same, told where the balls should be
   Extractor bayer_;
+  Extractor bayer_opened_;  ///< opened and closed by 3 x 3 cells, as BGR images are
   Observation found_;
   volatile std::uint64_t sum_ = 0;
   int marker_count_ = 0;

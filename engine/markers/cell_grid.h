@@ -47,5 +47,9 @@ inline double cellSize(const CellGrid& grid) {
 inline double cellOrigin(const CellGrid& grid) {
   return grid.hasQuads() ? 0.5 : 0.0;
 }
+/// An odd number of pixels as the nearest odd number of cells: of quads, 1 for 3 px, 3 for 5 and 7 px.
+inline int sideInCells(int side_px, const CellGrid& grid) {
+  return grid.hasQuads() ? side_px / 4 * 2 + 1 : side_px;
+}
 
 }  // namespace helical

@@ -26,9 +26,7 @@ struct Extractor::Workspace {
   explicit Workspace(const MarkerOptions& marker_options)
       : options(marker_options),
         background(marker_options.background_frames),
-        finder(marker_options.opening_px, marker_options.closing_px),
-        selection(options),
-        search(finder.border()) {
+        selection(options) {
     colours.push_back(options);
     colours.insert(colours.end(), options.other_colours.begin(), options.other_colours.end());
   }
@@ -46,9 +44,9 @@ struct Extractor::Workspace {
   std::vector<ColourRange> colours;
   std::vector<std::shared_ptr<const ColourClass>> classes;  ///< of `colours`, for `format` or the one to come
   BackgroundModel background;
-  RegionFinder finder;
+  RegionFinder finder{1, 1};
   RegionSelection selection;
-  SearchWindows search;
+  SearchWindows search{0};
   BallPredictions predictions;
   int since_whole = 0;  ///< frames read by windows since one was read as a whole
   DiscFit disc_fit;
@@ -74,7 +72,9 @@ void Extractor::Workspace::resize(const ImageView& image) {
   width = image.width;
   height = image.height;
   format = image.format;
+  finder = RegionFinder(sideInCells(options.opening_px, grid), sideInCells(options.closing_px, grid));
   finder.resize(grid.width, grid.height);
+  search = SearchWindows(finder.border());
   if (!ignored_areas.empty()) fillMask(ignored_areas, grid, ignored);
   classes = classesFor(grid);  // those that `prepare` has built, if it did
 }

@@ -28,8 +28,11 @@ struct MarkerOptions : ColourRange {
   int background_threshold = 20;  ///< largest channel difference from the background that still is background
   int background_frames = 8;      ///< averaged into the background at start
   int background_rows = 2;  ///< of the background that follow the light after each frame, in turn; 0: none
-  int whole_every = 15;           ///< frames, of which one is read as a whole; 1: each
-  int opening_px = 3;             ///< side of the square structuring element; 1 switches the step off
+  int whole_every = 15;     ///< frames, of which one is read as a whole; 1: each
+  /// Sides of the square structuring elements, odd; 1 switches the step off. On Bayer frames, whose cells are
+  /// 2 px wide, the nearest odd number of those: none for 3 px, for a ball of 4 px in radius rarely holds 3 x
+  /// 3 of them.
+  int opening_px = 3;
   int closing_px = 3;
   int minimum_area_px = 9;
   int maximum_area_px = 20000;

@@ -78,13 +78,14 @@ std::vector<Region> regionsOf(const cv::Mat& mask) {
 std::vector<Region> referenceRegions(const ImageView& image, const ImageView* background,
                                      const ColourRange& colour, const MarkerOptions& options,
                                      const BinaryMask* ignored, BinaryMask* bits) {
+  const CellGrid grid(image);
   const cv::Mat cells = cellsOf(image);
   cv::Mat mask = colourMask(cells, colour);
   if (background != nullptr)
     cv::bitwise_and(mask, differenceMask(cells, cellsOf(*background), options.background_threshold), mask);
   if (ignored != nullptr) removeIgnored(*ignored, mask);
-  applyMorphology(mask, cv::MORPH_OPEN, options.opening_px);
-  applyMorphology(mask, cv::MORPH_CLOSE, options.closing_px);
+  applyMorphology(mask, cv::MORPH_OPEN, sideInCells(options.opening_px, grid));
+  applyMorphology(mask, cv::MORPH_CLOSE, sideInCells(options.closing_px, grid));
   if (bits != nullptr) copyMask(mask, *bits);
   return regionsOf(mask);
 }

@@ -153,6 +153,25 @@ TEST(Extractor, FitsADiscWhereItIs) {
   }
 }
 
+TEST(Extractor, FindsSmallBallsWhereverTheyLieOnTheMosaic) {
+  constexpr double kRadius = 2.6;
+  Random random(8);
+  for (const PixelFormat format : {PixelFormat::kBgr8, PixelFormat::kBayerRg8, PixelFormat::kBayerGb8}) {
+    Extractor extractor(MarkerOptions{});
+    extractor.disableBackground();
+    for (int i = 0; i < 100; ++i) {
+      Picture picture(160, 120);
+      picture.fill(120, 120, 120);
+      picture.drawDisc(80.0 + 2.0 * random.uniform(), 60.0 + 2.0 * random.uniform(), kRadius, 45, 190, 50);
+      picture.addNoise(random, 4.0);
+      const Picture seen = picture.as(format);
+      Observation found;
+      extractor.extract(seen.view(), found);
+      EXPECT_EQ(found.count, 1) << "format " << static_cast<int>(format) << ", picture " << i;
+    }
+  }
+}
+
 TEST(Extractor, FindsEachColourByItself) {
   constexpr std::array kPlaces{50.0, 120.0, 200.0};
   Picture picture(300, 100);

@@ -124,8 +124,9 @@ class RegionFinderEqualsReference : public testing::TestWithParam<std::string> {
     const BinaryMask ignored = someAreas(grid, random);
     const BinaryMask* hidden = with_ignored ? &ignored : nullptr;
     MarkerOptions options;
-    options.opening_px = c.opening;
-    options.closing_px = c.closing;
+    const auto inPixels = [&](int side) { return grid.hasQuads() ? 2 * side - 1 : side; };
+    options.opening_px = inPixels(c.opening);
+    options.closing_px = inPixels(c.closing);
     const CellRule rule{classFor(c.colour, grid), static_cast<std::uint8_t>(c.colour.value_low),
                         static_cast<std::uint8_t>(c.colour.value_high),
                         static_cast<std::uint8_t>(options.background_threshold)};

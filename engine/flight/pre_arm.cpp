@@ -27,7 +27,7 @@ std::uint32_t failingChecks(const SupervisorOptions& o, SafetyState state, const
       {PreArmCheck::kFence, beyondFence(o, c.place) <= 0.0},
       {PreArmCheck::kCameras, health.live_cameras >= o.arm_cameras},
       {PreArmCheck::kFrameRate, health.frame_share >= o.arm_rate_share},
-      {PreArmCheck::kResidual, health.residual_ratio <= o.residual_limit},
+      {PreArmCheck::kResidual, health.residual_ratio <= o.residual_limit && !health.cameras_disagree},
       {PreArmCheck::kCovariance,
        health.position_sigma <= o.position_sigma_limit && health.rotation_sigma <= o.rotation_sigma_limit},
       {PreArmCheck::kYaw, !health.yaw_ambiguous},

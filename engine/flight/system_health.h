@@ -15,6 +15,7 @@ struct SystemHealth {
   double position_sigma = 0.0;     ///< of the pose [m], the three axes together
   double rotation_sigma = 0.0;     ///< of the pose [rad], the three axes together
   double residual_ratio = 1.0;     ///< of the pose's residual over its baseline
+  bool cameras_disagree = false;   ///< one was set aside, and whether it or the other one was moved is not known
   bool yaw_ambiguous = false;      ///< of a layout that looks the same when it is turned
   bool transmitter_ready = true;   ///< present, and its self-test passed
   bool transmitter_fault = false;  ///< the newest demand was not taken

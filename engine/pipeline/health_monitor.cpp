@@ -100,6 +100,7 @@ void HealthMonitor::watchPose(TimeNs now, std::span<const bool> usable, const En
   const Matrix6d& covariance = last.tracked.pose_covariance;
   health.position_sigma = std::sqrt(covariance.diagonal().head<3>().sum());
   health.rotation_sigma = std::sqrt(covariance.diagonal().tail<3>().sum());
+  health.cameras_disagree = last.cameras_disagree;
   health.yaw_ambiguous = std::abs(yawOf(last.tracked.state.world_from_body.rotation)) > unambiguous_yaw_;
   double squares = 0.0;
   int cameras = 0;

@@ -40,6 +40,7 @@ SupervisorConditions randomConditions(Random& random, TimeNs now) {
   h.pilot_flies = rarely(0.02);
   h.record_failed = rarely(0.02);
   h.record_stalled = rarely(0.02);
+  h.cameras_disagree = rarely(0.02);
   h.disk_free_gb = rarely(0.95) ? 100.0 : random.uniform(0.0, 2.0);
   return c;
 }

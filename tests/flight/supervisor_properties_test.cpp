@@ -80,6 +80,7 @@ TEST(SupervisorProperties, NothingArmsWithoutEveryCheck) {
       {PreArmCheck::kCameras, [](auto& c) { c.health.live_cameras = 1; }},
       {PreArmCheck::kFrameRate, [](auto& c) { c.health.frame_share = 0.94; }},
       {PreArmCheck::kResidual, [](auto& c) { c.health.residual_ratio = 3.1; }},
+      {PreArmCheck::kResidual, [](auto& c) { c.health.cameras_disagree = true; }},
       {PreArmCheck::kCovariance, [](auto& c) { c.health.position_sigma = 0.051; }},
       {PreArmCheck::kCovariance, [](auto& c) { c.health.rotation_sigma = 0.27; }},
       {PreArmCheck::kYaw, [](auto& c) { c.health.yaw_ambiguous = true; }},

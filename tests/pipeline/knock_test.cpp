@@ -99,6 +99,23 @@ TEST(Knock, OfTwoCamerasThatDisagreeNoneIsNamedAndItFliesOn) {
   }
 }
 
+TEST(Knock, WhileTwoCamerasDisagreeItDoesNotArm) {
+  RigConfig rig = test::shippedRig("calibrated", 3);
+  rig.cameras.pop_back();
+  rig.simulation.true_camera_from_world.resize(2);
+  rig.simulation.bumps = {{cameraId(0), 2.0, toRadians(5.0), 0.05}};
+  LockStep flight(rig, loadPlan(planPath("hover")));
+  bool could_arm = false;
+  for (;;) {
+    const EngineSnapshot& now = flight.tick({});
+    if (now.cameras_disagree) break;
+    could_arm = could_arm || now.failing_checks == 0;
+    ASSERT_LT(toSeconds(now.time), 10.0);
+  }
+  EXPECT_TRUE(could_arm);
+  EXPECT_NE(flight.tick({}).failing_checks & bitOf(PreArmCheck::kResidual), 0u);
+}
+
 TEST(Knock, NoFalseAlarmsWithTenPerCentOutliers) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RigConfig rig = test::shippedRig("calibrated", seed);

@@ -72,7 +72,7 @@ void Extractor::Workspace::resize(const ImageView& image) {
   width = image.width;
   height = image.height;
   format = image.format;
-  finder = RegionFinder(sideInCells(options.opening_px, grid), sideInCells(options.closing_px, grid));
+  finder.setSides(sideInCells(options.opening_px, grid), sideInCells(options.closing_px, grid));
   finder.resize(grid.width, grid.height);
   search = SearchWindows(finder.border());
   if (!ignored_areas.empty()) fillMask(ignored_areas, grid, ignored);

@@ -15,6 +15,10 @@ namespace helical {
 /// of the rectangle count as unset. Allocates in `resize` only. One thread.
 class MaskTile {
  public:
+  MaskTile() = default;
+  MaskTile(const MaskTile&) = delete;  // it points into itself
+  MaskTile& operator=(const MaskTile&) = delete;
+
   /// Of the image, in cells.
   void resize(int width, int height);
   /// Becomes this rectangle, which lies inside of the image; its words are the caller's to fill.

@@ -11,6 +11,11 @@ constexpr int kDenseShare = 4;
 
 }  // namespace
 
+void RegionFinder::setSides(int opening, int closing) {
+  opening_reach_ = opening / 2;
+  closing_reach_ = closing / 2;
+}
+
 void RegionFinder::resize(int width, int height) {
   mask_.resize(width, height);
   tile_.resize(width, height);

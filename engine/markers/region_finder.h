@@ -23,8 +23,9 @@ namespace helical {
 class RegionFinder {
  public:
   /// Sides of the squares; 1 switches a step off.
-  RegionFinder(int opening, int closing) : opening_reach_(opening / 2), closing_reach_(closing / 2) {}
+  RegionFinder(int opening, int closing) { setSides(opening, closing); }
 
+  void setSides(int opening, int closing);
   void resize(int width, int height);
 
   /// Regions of the cells that `rule` takes and that `ignored`, if given, does not hold; in no particular
@@ -58,8 +59,8 @@ class RegionFinder {
   void copyMask(const Task& task) const;
   void forget();
 
-  int opening_reach_;
-  int closing_reach_;
+  int opening_reach_ = 0;
+  int closing_reach_ = 0;
   BinaryMask mask_;  ///< nothing set between calls
   MaskTile tile_;
   std::vector<CellWord> hits_;          ///< words of the rows that were read which hold candidates

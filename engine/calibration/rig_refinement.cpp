@@ -149,7 +149,8 @@ const char* RigRefinement::start(std::span<const Part> cameras) {
     const auto seen = std::count_if(moments.begin(), moments.end(),
                                     [&](const RigMoment* moment) { return moment->views[c].seen.any(); });
     camera.used = cameras[c].used && seen >= options_.fewest_of_camera;
-    in_control_[c] = camera.used && cameras[c].estimate.status == CameraStatus::kCalibrated;
+    in_control_[c] = camera.used && !cameras[c].frozen && !cameras[c].hidden &&
+                     cameras[c].estimate.status == CameraStatus::kCalibrated;
     camera.given = cameras[c].holds;
     camera.camera_from_world = cameras[c].estimate.camera_from_world;
     camera.covariance = cameras[c].estimate.covariance;
@@ -195,6 +196,8 @@ bool RigRefinement::work() {
       correction_ = Correction::kNoAnswer;
     else if (poseJumpsTooFar() || someCameraJumpsTooFar())
       correction_ = Correction::kCamerasTooFar;
+    else if (correction_ == Correction::kNoAnswer)
+      correction_ = Correction::kUnsound;  // for the cameras alone there is one
     return true;
   }
   if (succeeded() && leaveOutWhatIsOpen()) {
@@ -316,7 +319,7 @@ bool RigRefinement::poseJumpsTooFar() {
 bool RigRefinement::someCameraJumpsTooFar() {
   for (std::size_t c = 0; c < cameras_; ++c) {
     const BundleCamera& found = bundle_.cameras()[c];
-    if (!in_control_[c] || !found.used) continue;
+    if (!in_control_[c] || !hasAnswer(c)) continue;
     const RigidTransform moved = found.camera_from_world.inverse() * asked_[c].camera_from_world;
     if (jumpsTooFar([&](std::size_t i) { return moved * flown_[i]; })) return true;
   }
@@ -334,13 +337,18 @@ bool RigRefinement::succeeded() const {
   return bundle_.succeeded() && bundle_.medianSigmas() <= options_.good_median;
 }
 
+bool RigRefinement::hasAnswer(std::size_t camera) const {
+  const BundleCamera& found = bundle_.cameras()[camera];
+  const bool exact = start_[camera].given && start_[camera].covariance.isZero(0.0);
+  return found.used && !exact && found.inliers >= options_.good_inliers * found.balls;
+}
+
 CameraEstimate RigRefinement::answer(CameraId camera) const {
   const auto index = static_cast<std::size_t>(camera.index());
   CameraEstimate answer;
   if (!succeeded() || correction_ == Correction::kCamerasTooFar) return answer;
+  if (!hasAnswer(index)) return answer;
   const BundleCamera& found = bundle_.cameras()[index];
-  const bool exact = start_[index].given && start_[index].covariance.isZero(0.0);
-  if (!found.used || exact || found.inliers < options_.good_inliers * found.balls) return answer;
   answer.camera_from_world = found.camera_from_world;
   answer.covariance = inflation_ * found.covariance;
   answer.status = CameraStatus::kCalibrated;

@@ -54,7 +54,8 @@ class RigRefinement {
     CameraEstimate estimate;
     bool used = false;
     bool holds = false;   ///< its pose is known up to its covariance, and with it the world
-    bool frozen = false;  ///< nothing will be learnt about it: its focal length stays
+    bool frozen = false;  ///< nothing will be learnt about it: it stays, and its focal length
+    bool hidden = false;  ///< it sees, but nobody flies by it
   };
 
   RigRefinement(const std::vector<CameraModel>& cameras, const MarkerLayout& markers,
@@ -121,6 +122,7 @@ class RigRefinement {
   bool poseJumpsTooFar();
   /// The helicopter as one of the cameras in control sees it by itself, balls as they are.
   bool someCameraJumpsTooFar();
+  bool hasAnswer(std::size_t camera) const;
   /// `pose_after(i)`: where the helicopter was at moment i, of `flown_`.
   template <typename PoseAfter>
   bool jumpsTooFar(const PoseAfter& pose_after);

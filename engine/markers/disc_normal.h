@@ -41,6 +41,9 @@ class NormalSolver {
         left -= product * lower_(k, j);
       }
       inverse_[k] = left > kNothing * normal(k, k) ? 1.0 / left : 0.0;
+      // One that others explain as a whole may be anything; one that shows nowhere has no say.
+      variance_[k] =
+          inverse_[k] > 0.0 || !(normal(k, k) > 0.0) ? inverse_[k] : 1.0 / (kNothing * normal(k, k));
     }
   }
 
@@ -56,14 +59,16 @@ class NormalSolver {
 
   /// Inverse of the matrix, of its first two unknowns.
   Eigen::Matrix2d firstTwo() const {
-    Eigen::Matrix2d inverse;
-    for (int k = 0; k < 2; ++k) inverse.col(k) = solve(Vector::Unit(k)).template head<2>();
-    return 0.5 * (inverse + inverse.transpose());
+    Eigen::Matrix<double, kSize, 2> x = Eigen::Matrix<double, kSize, 2>::Identity();
+    for (int k = 0; k < kSize; ++k)
+      for (int j = 0; j < k; ++j) x.row(k) -= lower_(k, j) * x.row(j);
+    return x.transpose() * variance_.asDiagonal() * x;
   }
 
  private:
   Eigen::Matrix<double, kSize, kSize> lower_, scaled_;  ///< the same, with the diagonal multiplied in
   Vector inverse_;                                      ///< of the diagonal
+  Vector variance_;                                     ///< the same, as far as the covariance goes
 };
 
 /// Information about the light along the view, which is zero as far as anybody knows: under flat light its

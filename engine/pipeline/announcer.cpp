@@ -128,7 +128,7 @@ void Announcer::announce(const EngineSnapshot& now, bool gave_up, const Sink& ra
   announceRefinement(now, raise);
   announceRecord(now, raise);
   if (now.cameras_disagree && !disagreed_)
-    raise(event(now.time, Severity::kDanger, "The last two cameras disagree: one was moved, which is not known"));
+    raise(event(now.time, Severity::kDanger, "Two cameras disagree: one was moved, and which one is not known"));
   disagreed_ = now.cameras_disagree;
   if (now.cables_changed != cables_changed_)
     raise(event(now.time, Severity::kCaution, "Two cameras have changed cables: each is taken for the other one now"));

@@ -64,7 +64,9 @@ void ControlSet::refreshUsable() {
 }
 
 bool ControlSet::camerasDisagree() const {
-  return std::any_of(set_aside_.begin(), set_aside_.end(), [](const auto& place) { return place.has_value(); });
+  for (std::size_t i = 0; i < cameras_; ++i)
+    if (set_aside_[i] && !hidden_[i]) return true;
+  return false;
 }
 
 std::array<const CameraEstimate*, kMaxCameras> ControlSet::places() const {
@@ -92,6 +94,7 @@ void ControlSet::swapCalibration(CameraId camera, std::unique_ptr<CameraCalibrat
   calibrations_[index].swap(calibration);
   calibrations_[index]->correct(models_[index], markers_);
   if (!learning_[index]) return;
+  set_aside_[index].reset();  // where it stood is to be forgotten
   leaveRefinement(index);
   estimates_[index] = calibrations_[index]->estimate();
   bounds_[index].restart();

@@ -68,7 +68,8 @@ class ControlSet {
   /// Whether they have changed since this was asked: those who look by them have to follow.
   bool takeCorrection();
   const RefinementReport& refinement() const { return report_; }
-  /// Two were left, and one of them was moved.
+  /// Of this camera and the one other that saw the helicopter then one was moved, and it was set aside. Ends when it
+  /// has a place again, is to calibrate anew, or is hidden.
   bool camerasDisagree() const;
   /// Where each camera stands, in control or as it was set aside; null where nobody vouches for a place.
   std::array<const CameraEstimate*, kMaxCameras> places() const;

@@ -90,6 +90,7 @@ const char* ControlSet::startRefinement() {
     RigRefinement::Part& part = parts[i];
     part.estimate = estimates_[i];
     part.frozen = frozen_[i];
+    part.hidden = hidden_[i];
     part.holds = estimates_[i].status == CameraStatus::kCalibrated && !learning_[i];
     // One that learns and is frozen could not follow what is found.
     part.used = part.holds || (learning_[i] && !frozen_[i] && calibrations_[i]->calibrator().namesCentroids() &&

@@ -224,7 +224,9 @@ void Engine::saveCalibration(const std::filesystem::path& file, std::optional<Ca
 void Engine::adoptCalibration(const std::filesystem::path& file, std::optional<CameraId> only) {
   SavedCalibration saved = loadCalibration(file);
   if (only) saved = onlyOf(saved, implementation_->rig.cameras[static_cast<std::size_t>(only->index())]);
-  for (const CalibrationOrder& order : adoptOrders(saved, implementation_->rig, snapshot().markers))
+  const RigConfig& rig = implementation_->rig;
+  const MarkerLayout& flown_with = snapshot().tick > 0 ? snapshot().markers : rig.markers_in_body;
+  for (const CalibrationOrder& order : adoptOrders(saved, rig, flown_with))
     if (!orderCalibration(order))
       throw Error(ErrorKind::kSystem, "the engine is still busy with earlier orders", file.string(),
                   "try again");

@@ -110,7 +110,7 @@ struct EngineSnapshot {
   const char* obstacle = nullptr;  ///< on the ground: why it could not take off now; a literal
   const char* refusal = nullptr;   ///< at the tick when a take-off order is given up: why; a literal
   const char* cold_start = nullptr;  ///< no camera is calibrated: what the operator has to do; a literal
-  bool cameras_disagree = false;     ///< one of the two that are left was moved; which one, nobody can tell
+  bool cameras_disagree = false;     ///< of two one was moved; which one, nobody can tell
   std::uint32_t cables_changed = 0;  ///< how often two cameras were found at each other's cable
   CameraStreams streams = ownStreams();  ///< other than their own since two were found exchanged
   bool has_truth = false;          ///< simulated flights only

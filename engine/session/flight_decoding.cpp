@@ -312,6 +312,7 @@ DecodedOrder decodeOrder(std::string_view payload) {
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) decided.covariance(row, column) = in.get<double>();
   if (!in.atEnd()) decided.focal_scale = in.get<double>();
+  if (!in.atEnd()) decided.balls_off_m = in.get<double>();
   for (const CalibrationOrderKind kind : kCalibrationOrderKinds)
     if (order.kind == toString(kind)) {
       decided.kind = kind;

@@ -362,6 +362,7 @@ void putOrder(CdrWriter& out, std::uint64_t order, TimeNs time, const char* kind
   out.putAll(decided.camera_from_world.translation);
   out.putAll(decided.covariance);
   out.put(decided.focal_scale);
+  out.put(decided.balls_off_m);
 }
 
 }  // namespace

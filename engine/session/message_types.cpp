@@ -139,7 +139,8 @@ constexpr Definition kDefinitions[] = {
      "string method           # of a change: its values as JSON\nuint64 seed\n"
      "float64[7] camera_from_world  # of adopt: quaternion w x y z, then the translation\n"
      "float64[36] covariance   # of adopt: rotation in the camera's frame, then its centre in the world\n"
-     "float64 focal_scale      # of adopt: of its focal lengths, over the rig's\n"},
+     "float64 focal_scale      # of adopt: of its focal lengths, over the rig's\n"
+     "float64 balls_off_m      # of adopt: the farthest of the balls by which the place holds from that flown with\n"},
 };
 
 constexpr std::string_view kNames[kMessageKinds] = {

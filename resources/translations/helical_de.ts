@@ -1976,8 +1976,8 @@ m/s</translation>
         <translation>ist zurück, mit ihren Einstellungen</translation>
     </message>
     <message>
-        <source>The last two cameras disagree: one was moved, which is not known</source>
-        <translation>Die letzten zwei Kameras widersprechen sich: eine wurde bewegt, welche ist unbekannt</translation>
+        <source>Two cameras disagree: one was moved, and which one is not known</source>
+        <translation>Zwei Kameras widersprechen sich: eine wurde bewegt, welche ist unbekannt</translation>
     </message>
     <message>
         <source>Comparison of %n flight(s)</source>
